@@ -39,8 +39,7 @@ impl Povray {
         (x, y): (u32, u32),
     ) -> Outcome {
         let (column, row) = (x + 1, y + 1);
-        let part =
-            [format!("+SC{column}"), format!("+EC{column}"), format!("+SR{row}"), format!("+ER{row}")];
+        let part = [format!("+SC{column}"), format!("+EC{column}"), format!("+SR{row}"), format!("+ER{row}")];
         self.run(scene, picture, shot, scene.parent().unwrap_or(scene), &part)
     }
 

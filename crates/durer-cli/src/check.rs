@@ -10,12 +10,12 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let lowered = loaded.lower()?;
     let (scene, geometry) = (loaded.scene(), &lowered.geometry);
     let (stats, inventory) = (geometry.stats(), geometry.inventory());
-    let held: u64 = inventory.kinds.iter().map(|kind| kind.1).sum();
+    let held: u64 = inventory.kinds.0.iter().map(|kind| kind.1).sum();
     println!("{}", args.scene.scene.display());
     println!("  objects     {}", scene.objects.len());
     println!("  primitives  {held}");
-    for (kind, count) in inventory.kinds.iter().filter(|kind| kind.1 > 0) {
-        println!("    {count:>8}  {}", short(kind));
+    for (kind, count) in inventory.kinds.0.iter().filter(|kind| kind.1 > 0) {
+        println!("    {count:>8}  {kind}");
     }
     if stats.instances > 0 {
         println!("  instances   {}: with them there are {} primitives", stats.instances, inventory.placed);
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     } else if scene.objects.is_empty() {
         println!("  bounds      none: the scene is empty");
     } else {
-        println!("  bounds      endless");
+        println!("  bounds      unbounded");
     }
     println!(
         "  tree        {} nodes, {} leaves, depth {}",
@@ -59,9 +59,4 @@ fn report(faces: usize, topology: &Topology) {
     for (count, what) in lines.into_iter().filter(|line| line.0 > 0) {
         println!("    {count:>8}  {what}");
     }
-}
-
-/// The name of a type without its path.
-fn short(name: &str) -> String {
-    name.split('<').map(|part| part.rsplit("::").next().unwrap_or(part)).collect::<Vec<_>>().join("<")
 }

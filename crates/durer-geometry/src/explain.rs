@@ -30,10 +30,8 @@ pub enum Event {
     Beside {
         /// How deeply nested in instances.
         depth: u32,
-        /// Their type.
-        surface: &'static str,
-        /// How many.
-        count: u32,
+        /// The surfaces.
+        surfaces: SurfaceCounts,
     },
     /// The ray misses the box around everything in the tree.
     OutsideTree {
@@ -76,10 +74,8 @@ pub enum Event {
         bounds: Aabb,
         /// Where the ray enters the box.
         t: f64,
-        /// The type of its surfaces.
-        surface: &'static str,
-        /// How many.
-        count: u32,
+        /// Its surfaces.
+        surfaces: SurfaceCounts,
     },
     /// The ray reached an instance and was transformed into its frame.
     Instance {
@@ -94,7 +90,7 @@ pub enum Event {
     Tested {
         /// How deeply nested in instances.
         depth: u32,
-        /// Its type.
+        /// What it is called.
         surface: &'static str,
         /// Its object.
         object: ObjectId,
@@ -109,6 +105,28 @@ pub enum Event {
         /// Whether there are more.
         has_more: bool,
     },
+}
+
+/// Names of surfaces, and how many there are of each, in the order of their first appearance.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SurfaceCounts(pub Vec<(&'static str, u64)>);
+
+impl SurfaceCounts {
+    pub(crate) fn add(&mut self, name: &'static str, more: u64) {
+        match self.0.iter_mut().find(|known| known.0 == name) {
+            Some(known) => known.1 += more,
+            None => self.0.push((name, more)),
+        }
+    }
+}
+
+impl fmt::Display for SurfaceCounts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (name, count)) in self.0.iter().enumerate() {
+            write!(f, "{}{count} x {name}", if i > 0 { ", " } else { "" })?;
+        }
+        Ok(())
+    }
 }
 
 /// So many crossings of one surface are listed: a fractal may have billions on a ray.
@@ -148,8 +166,8 @@ impl Story {
     fn geometry(&mut self, walk: &RayContext<'_>, depth: u32) {
         let geometry = walk.geometry;
         for beside in &geometry.beside {
-            let (surface, count) = (self.type_name(geometry, &beside.leaf()), beside.count);
-            self.events.push(Event::Beside { depth, surface, count });
+            let surfaces = self.surfaces(geometry, &beside.leaf());
+            self.events.push(Event::Beside { depth, surfaces });
             self.leaf(walk, &beside.leaf(), depth);
         }
         let mut line = walk.line();
@@ -166,8 +184,8 @@ impl Story {
                 f64::INFINITY
             }
             Step::Leaf { leaf, level, bounds, t } => {
-                let surface = self.type_name(geometry, &leaf);
-                self.events.push(Event::Leaf { depth, level, bounds, t, surface, count: leaf.count });
+                let surfaces = self.surfaces(geometry, &leaf);
+                self.events.push(Event::Leaf { depth, level, bounds, t, surfaces });
                 self.leaf(walk, &leaf, depth);
                 self.best.map_or(f64::INFINITY, |best| walk.limit(best.t_hi))
             }
@@ -177,8 +195,14 @@ impl Story {
         }
     }
 
-    fn type_name(&self, geometry: &Geometry, leaf: &Leaf) -> &'static str {
-        geometry.arenas.get(leaf.kind as usize).map_or("instance", |a| short(a.type_name()))
+    /// The names of a leaf's surfaces and how many there are of each.
+    fn surfaces(&self, geometry: &Geometry, leaf: &Leaf) -> SurfaceCounts {
+        let mut counts = SurfaceCounts::default();
+        match geometry.arenas.get(leaf.kind as usize) {
+            Some(arena) => slots(leaf).for_each(|slot| counts.add(arena.surface_name(slot), 1)),
+            None => counts.add("instance", u64::from(leaf.count)),
+        }
+        counts
     }
 
     fn leaf(&mut self, walk: &RayContext<'_>, leaf: &Leaf, depth: u32) {
@@ -217,7 +241,7 @@ impl Story {
             let name = arena.name(slot);
             self.events.push(Event::Tested {
                 depth,
-                surface: short(arena.type_name()),
+                surface: arena.surface_name(slot),
                 object: ObjectId(walk.placement.object.wrapping_add(name.object)),
                 primitive: walk.placement.primitive.wrapping_add(name.primitive),
                 source: filter.source.is_some_and(|s| s.0 == slot),
@@ -225,15 +249,6 @@ impl Story {
                 has_more,
             });
         }
-    }
-}
-
-/// A type's name without its path.
-fn short(name: &'static str) -> &'static str {
-    let head = name.split('<').next().unwrap_or(name);
-    match head.rfind("::") {
-        Some(at) => &name[at + 2..],
-        None => name,
     }
 }
 
@@ -292,9 +307,9 @@ impl fmt::Display for Event {
             write!(f, "{:width$}", "", width = 2 * (2 * depth + level) as usize)
         };
         match self {
-            Self::Beside { depth, surface, count } => {
+            Self::Beside { depth, surfaces } => {
                 indent(f, *depth, 0)?;
-                writeln!(f, "{count} x {surface} without a bounded box: tested first")
+                writeln!(f, "{surfaces} without a bounded box: tested first")
             }
             Self::OutsideTree { depth } => {
                 indent(f, *depth, 0)?;
@@ -308,9 +323,9 @@ impl fmt::Display for Event {
                 indent(f, *depth, *level)?;
                 writeln!(f, "box {} begins at t >= {t:.6}, behind the closest hit: skipped", Box(bounds))
             }
-            Self::Leaf { depth, level, bounds, t, surface, count } => {
+            Self::Leaf { depth, level, bounds, t, surfaces } => {
                 indent(f, *depth, *level)?;
-                writeln!(f, "leaf {} entered at t >= {t:.6}: {count} x {surface}", Box(bounds))
+                writeln!(f, "leaf {} entered at t >= {t:.6}: {surfaces}", Box(bounds))
             }
             Self::Instance { depth, instance, admitted } => {
                 indent(f, *depth, 1)?;

@@ -69,7 +69,7 @@ pub use crate::batch::Ragged;
 pub use crate::builder::{BuildError, Builder};
 pub use crate::bundle::CandidateList;
 pub use crate::csg::{Compound, CompoundBuilder, CsgError, Part, Shown};
-pub use crate::explain::{Event, Explanation, MOST_CROSSINGS, Verdict};
+pub use crate::explain::{Event, Explanation, MOST_CROSSINGS, SurfaceCounts, Verdict};
 pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, LeafId, ObjectId, PrimitiveId, Span};
 pub use crate::ids::EVERYTHING;

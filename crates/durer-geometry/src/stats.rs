@@ -1,5 +1,6 @@
 //! Statistics of a geometry.
 
+use crate::explain::SurfaceCounts;
 use crate::geometry::{Geometry, Instance};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -7,9 +8,9 @@ use std::sync::Arc;
 /// Counts and memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stats {
-    /// Each type of surface with the number of its surfaces or parts, in the order in which the
-    /// types were first added.
-    pub kinds: Vec<(&'static str, u32)>,
+    /// Each kind of surface with the number of its surfaces or parts, in the order in which the
+    /// kinds were first added.
+    pub kinds: SurfaceCounts,
     /// The number of surfaces and parts, without instances.
     pub primitives: u64,
     /// The number of instances.
@@ -24,10 +25,13 @@ pub struct Stats {
 }
 
 pub(crate) fn of(geometry: &Geometry) -> Stats {
-    let kinds: Vec<_> = geometry.arenas.iter().map(|a| (a.type_name(), a.len())).collect();
+    let mut kinds = SurfaceCounts::default();
+    for arena in &geometry.arenas {
+        (0..arena.len()).for_each(|slot| kinds.add(arena.surface_name(slot), 1));
+    }
     let tree = geometry.tree.stats();
     Stats {
-        primitives: kinds.iter().map(|k| u64::from(k.1)).sum(),
+        primitives: kinds.0.iter().map(|k| k.1).sum(),
         instances: geometry.instances().len(),
         beside: geometry.beside.iter().map(|b| u64::from(b.count)).sum(),
         bytes: geometry.arenas.iter().map(|a| a.bytes()).sum::<usize>()
@@ -43,8 +47,8 @@ pub(crate) fn of(geometry: &Geometry) -> Stats {
 pub struct Inventory {
     /// The number of geometries, itself included, each counted once however often it is placed.
     pub geometries: usize,
-    /// Each type of surface with the number of its surfaces or parts in these geometries.
-    pub kinds: Vec<(&'static str, u64)>,
+    /// Each kind of surface with the number of its surfaces or parts in these geometries.
+    pub kinds: SurfaceCounts,
     /// The number of surfaces and parts, counted once for each placement.
     pub placed: u128,
     /// Bytes on the heap of all of these geometries, counted as in [`Stats::bytes`].
@@ -64,11 +68,8 @@ impl Inventory {
         let stats = of(geometry);
         self.geometries += 1;
         self.bytes += stats.bytes;
-        for (name, count) in stats.kinds {
-            match self.kinds.iter_mut().find(|kind| kind.0 == name) {
-                Some(kind) => kind.1 += u64::from(count),
-                None => self.kinds.push((name, u64::from(count))),
-            }
+        for (name, count) in stats.kinds.0 {
+            self.kinds.add(name, count);
         }
         let mut placed = u128::from(stats.primitives);
         for instance in geometry.instances() {
@@ -114,8 +115,8 @@ mod tests {
         let inventory = all.inventory();
         assert_eq!(inventory.geometries, 4);
         assert_eq!(inventory.placed, (3 * 2 + 1) + 2 * (5 * 2 + 1) + 1 + 2);
-        let total = |name: &str| inventory.kinds.iter().find(|k| k.0.contains(name)).map(|k| k.1);
-        assert_eq!((total("Sphere"), total("AxisBox")), (Some(3), Some(2)));
+        let total = |name: &str| inventory.kinds.0.iter().find(|k| k.0 == name).map(|k| k.1);
+        assert_eq!((total("sphere"), total("box")), (Some(3), Some(2)));
         let held: usize = [&all, &*three, &*five, &*pair].map(|g| g.stats().bytes).iter().sum();
         assert_eq!(inventory.bytes, held);
     }

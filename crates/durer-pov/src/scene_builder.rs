@@ -424,6 +424,11 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points * 16);
             scene::Shape::Prism(Arc::new((**prism).clone()))
         }
+        Shape::Sweep(sweep) => {
+            let points: usize = sweep.outlines.iter().map(Vec::len).sum();
+            limits::charge_for_good(points * 16);
+            scene::Shape::StraightSweep(Arc::new((**sweep).clone()))
+        }
         Shape::SphereSweep(spline, spheres) => {
             limits::charge_for_good(spheres.len() * 32);
             scene::Shape::SphereSweep(*spline, Arc::from(&spheres[..]))

@@ -166,6 +166,33 @@ fn prisms_say_what_is_wrong_with_them() {
 }
 
 #[test]
+fn sweeps_say_what_is_wrong_with_them() {
+    let says = |text: &str, message: &str| {
+        let told = fault(text).2;
+        assert!(told.contains(message), "{text}: {told}");
+    };
+    let profile = "profile linear_spline 4, <-1, -1>, <1, -1>, <0, 1>, <-1, -1>";
+    let sweep = |rest: &str| format!("sweep {{ {profile} {rest} }}");
+    says("sweep { path linear_spline 2, x, y }", "this sweep has no `profile`");
+    says(&sweep(""), "this sweep has no `path`");
+    says(&sweep("path linear_spline 1, x"), "at least 2 points, not 1");
+    says(&sweep("path linear_spline 3, x, y, z"), "a path with corners is not supported yet");
+    says(&sweep("path cubic_spline 4, x, y, z, 0"), "a curved path (cubic_spline) is not supported yet");
+    says(&sweep("path linear_spline 2, x, x"), "both ends of the path are <1, 0, 0>");
+    says(&sweep("path linear_spline 2, x, y twist 30"), "`twist` is not supported yet");
+    says(&sweep("path linear_spline 2, 0, y up 2*y"), "up, <0, 2, 0>, must not be parallel to the path");
+    says(
+        &sweep("path linear_spline 2, 0, y size 3, 1, 2, 3"),
+        "`size` has one number for each of the 2 points",
+    );
+    says(&sweep("path linear_spline 2, 0, y size 2, 1, 0"), "a size must be positive and finite, got 0");
+    says(
+        "sweep { profile linear_spline 2, <0, 0>, <1, 1> path linear_spline 2, 0, y }",
+        "at least 3 points, not 2",
+    );
+}
+
+#[test]
 fn curved_prisms_say_what_is_wrong_with_them() {
     let says = |text: &str, message: &str| {
         let told = fault(text).2;

@@ -5,8 +5,8 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject,
-    Operation, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline,
-    Terrain, TerrainData, Texture, Warp,
+    Operation, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, StraightSweep, Sweep,
+    SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -129,6 +129,27 @@ fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: b
     };
     let sweep = if conic { Sweep::Conic } else { Sweep::Linear };
     checked(Shape::Prism(Arc::new(Prism { outlines, spline, heights, sweep })))
+}
+
+#[pyfunction]
+fn sweep(
+    outlines: Vec<Vec<[f64; 2]>>,
+    path: [[f64; 3]; 2],
+    sizes: [f64; 2],
+    up: Option<[f64; 3]>,
+    spline: &str,
+) -> PyResult<Object> {
+    let spline = match spline {
+        "linear" => Spline::Linear,
+        "bezier" => Spline::Curved(Curve::Bezier),
+        other => {
+            return Err(value_error(format!(
+                "sweep: the spline must be 'linear' or 'bezier', got '{other}'"
+            )));
+        }
+    };
+    let (path, up) = (path.map(point), up.map(vec3));
+    checked(Shape::StraightSweep(Arc::new(StraightSweep { outlines, spline, path, sizes, up })))
 }
 
 #[pyfunction]
@@ -438,6 +459,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sphere_sweep, module)?)?;
     module.add_function(wrap_pyfunction!(surface_of_revolution, module)?)?;
     module.add_function(wrap_pyfunction!(lathe, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

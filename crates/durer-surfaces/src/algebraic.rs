@@ -399,6 +399,10 @@ impl<const N: usize> Dense<N> {
 }
 
 impl Surface for AlgebraicSurface {
+    fn name(&self) -> &'static str {
+        "algebraic surface"
+    }
+
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
     }

@@ -89,6 +89,10 @@ impl Annulus {
 }
 
 impl Surface for Annulus {
+    fn name(&self) -> &'static str {
+        "annulus"
+    }
+
     fn bounds(&self) -> Aabb {
         self.sheet.bounds()
     }

@@ -353,6 +353,10 @@ fn later_climb(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
 }
 
 impl Surface for AxisBox {
+    fn name(&self) -> &'static str {
+        "box"
+    }
+
     fn bounds(&self) -> Aabb {
         Aabb::new(self.min, self.max)
     }

@@ -262,6 +262,10 @@ impl PolynomialSurface<5> for Cyclide {
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Surface for Cyclide {
+    fn name(&self) -> &'static str {
+        "cyclide"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds_through(&Affine::IDENTITY)
     }

@@ -76,6 +76,10 @@ impl Disc {
 }
 
 impl Surface for Disc {
+    fn name(&self) -> &'static str {
+        "disc"
+    }
+
     fn bounds(&self) -> Aabb {
         self.sheet.bounds()
     }

@@ -109,7 +109,7 @@ pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
 pub use crate::polygon::{FillRule, Polygon, PolygonError};
 pub use crate::prism::curved::{Bezier, CurvedPrism, Spline};
-pub use crate::prism::{Prism, PrismError};
+pub use crate::prism::{Prism, PrismError, StraightPath, StraightPathError};
 pub use crate::quadric::axial::{Axial, AxialError};
 pub use crate::quadric::cone::Cone;
 pub use crate::quadric::cylinder::{EllipticCylinder, HyperbolicCylinder, ParabolicCylinder};

@@ -316,6 +316,10 @@ fn show<S: Sink + ?Sized>(roots: &[Root], sink: &mut S) {
 }
 
 impl Surface for Mesh {
+    fn name(&self) -> &'static str {
+        "mesh"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

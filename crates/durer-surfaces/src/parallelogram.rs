@@ -207,6 +207,10 @@ fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) ->
 }
 
 impl Surface for Parallelogram {
+    fn name(&self) -> &'static str {
+        "parallelogram"
+    }
+
     fn bounds(&self) -> Aabb {
         // One coordinate at a time: the corner plus the negative, or the positive, parts of the
         // edges.

@@ -203,6 +203,10 @@ impl PlaneForm for Seen<'_> {
 }
 
 impl Surface for Plane {
+    fn name(&self) -> &'static str {
+        "plane"
+    }
+
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
     }

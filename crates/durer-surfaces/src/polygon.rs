@@ -341,6 +341,10 @@ impl<'a, L: Line> Winding<'a, L> {
 }
 
 impl Surface for Polygon {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

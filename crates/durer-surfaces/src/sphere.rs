@@ -224,6 +224,10 @@ impl Sphere {
 }
 
 impl QuadricFaces for Sphere {
+    fn name(&self) -> &'static str {
+        "sphere"
+    }
+
     fn frame(&self) -> Frame {
         let scale = self.scale();
         Frame { centre: self.centre, scale, reach: scale2(self.radius, -scale) * (1.0 + 2.0 * U) }
@@ -301,6 +305,10 @@ pub(crate) fn length(v: [f64; 3]) -> f64 {
 }
 
 impl Surface for Sphere {
+    fn name(&self) -> &'static str {
+        "sphere"
+    }
+
     fn bounds(&self) -> Aabb {
         QuadricFaces::bounds(self)
     }

@@ -10,6 +10,11 @@ use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
 /// The closest hit, any hit, all hits and spans are [`Sink`]s over the one method
 /// [`roots`](Surface::roots), so they cannot disagree.
 pub trait Surface: Send + Sync {
+    /// What the surface is called in explanations and statistics, in the singular.
+    fn name(&self) -> &'static str {
+        "surface"
+    }
+
     /// A box that provably holds the surface and, for a solid, its inside; [`Aabb::UNBOUNDED`] if
     /// none does.
     fn bounds(&self) -> Aabb;

@@ -286,6 +286,10 @@ impl PolynomialSurface<5> for Torus {
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Surface for Torus {
+    fn name(&self) -> &'static str {
+        "torus"
+    }
+
     fn bounds(&self) -> Aabb {
         let far = (self.major + self.minor).next_up();
         let mut half = [far; 3];

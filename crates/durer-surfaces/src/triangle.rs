@@ -101,6 +101,10 @@ impl Triangle {
 }
 
 impl Surface for Triangle {
+    fn name(&self) -> &'static str {
+        "triangle"
+    }
+
     fn bounds(&self) -> Aabb {
         Aabb::from_points(self.vertices)
     }

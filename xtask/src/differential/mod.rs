@@ -109,7 +109,8 @@ impl Bench<'_> {
         }
         remove(&moved);
         let disputed = reproducible_differences(ours, theirs, &again);
-        let sample: Vec<usize> = disputed.iter().copied().step_by(disputed.len().div_ceil(ALONE).max(1)).collect();
+        let sample: Vec<usize> =
+            disputed.iter().copied().step_by(disputed.len().div_ceil(ALONE).max(1)).collect();
         let mut still = 0;
         for &pixel in &sample {
             let place = (pixel as u32 % SHOT.width, pixel as u32 / SHOT.width);

@@ -98,8 +98,8 @@ pub(crate) trait AnyArena: Send + Sync {
     fn as_any(&mut self) -> &mut dyn core::any::Any;
     /// Converts to an arena that can be arranged anew.
     fn reopen(self: Box<Self>) -> Box<dyn Arrange>;
-    /// The type's name.
-    fn type_name(&self) -> &'static str;
+    /// What the surface of a slot is called.
+    fn surface_name(&self, slot: u32) -> &'static str;
     /// How many slots there are.
     fn len(&self) -> u32;
     /// Bytes on the heap, without what the surfaces own in turn.
@@ -512,8 +512,8 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         self
     }
 
-    fn type_name(&self) -> &'static str {
-        core::any::type_name::<S>()
+    fn surface_name(&self, slot: u32) -> &'static str {
+        self.slot(slot).surface.name()
     }
 
     fn len(&self) -> u32 {

@@ -259,8 +259,8 @@ impl AnyArena for Compounds {
         self
     }
 
-    fn type_name(&self) -> &'static str {
-        core::any::type_name::<Compound>()
+    fn surface_name(&self, _slot: u32) -> &'static str {
+        "CSG solid"
     }
 
     fn len(&self) -> u32 {

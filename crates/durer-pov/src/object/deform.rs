@@ -218,6 +218,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Polygon(..) => "a polygon",
         Shape::Mesh(_) => "a mesh",
         Shape::Prism(_) => "a prism",
+        Shape::Sweep(_) => "a sweep",
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",

@@ -41,6 +41,7 @@ pub(crate) enum Word {
     Cyclide,
     Ifs,
     Terrain,
+    Sweep,
 }
 
 impl Word {
@@ -65,6 +66,7 @@ impl Word {
             "cyclide" => Self::Cyclide,
             "ifs" => Self::Ifs,
             "terrain" => Self::Terrain,
+            "sweep" => Self::Sweep,
             _ => return None,
         })
     }
@@ -128,6 +130,7 @@ impl Parser<'_> {
             Word::Cyclide => return self.cyclide(),
             Word::Ifs => return self.ifs(place),
             Word::Terrain => return self.terrain(place),
+            Word::Sweep => return self.sweep(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

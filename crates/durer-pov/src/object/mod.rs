@@ -9,6 +9,7 @@ mod mesh;
 mod modifiers;
 pub(crate) mod queries;
 mod shapes;
+mod sweep;
 mod swept;
 mod terrain;
 
@@ -95,6 +96,7 @@ pub(crate) enum Shape {
         d: f64,
     },
     Prism(Rc<durer_scene::Prism>),
+    Sweep(Rc<durer_scene::StraightSweep>),
     /// Centre and radius each.
     SphereSweep(durer_scene::SweepSpline, Rc<[[f64; 4]]>),
     /// Radii and heights.

@@ -42,9 +42,9 @@ impl Parser<'_> {
         let outlines = match spline {
             Spline::Linear => {
                 let count = self.point_count("a prism", 3)?;
-                self.outlines(count, place)?
+                self.outlines("prism", count, place)?
             }
-            Spline::Curved(curve) => self.curves(curve)?,
+            Spline::Curved(curve) => self.curves("prism", curve)?,
         };
         if from == to {
             return Ok(self.flat_prism(&outlines, sweep, from, place));
@@ -67,13 +67,14 @@ impl Parser<'_> {
     }
 
     /// The points of closed curves, those before and behind each curve included.
-    fn curves(&mut self, curve: Curve) -> Result<Vec<Vec<[f64; 2]>>> {
+    pub(super) fn curves(&mut self, of: &str, curve: Curve) -> Result<Vec<Vec<[f64; 2]>>> {
         // The name, the least number of points, where the first point of the curve is, and how many follow its last.
-        let (name, least, first, behind) = match curve {
-            Curve::Quadratic => ("a prism of quadratic_spline", 5, 1, 0),
-            Curve::Cubic => ("a prism of cubic_spline", 6, 1, 1),
-            Curve::Bezier => ("a prism of bezier_spline", 4, 0, 0),
+        let (spline, least, first, behind) = match curve {
+            Curve::Quadratic => ("quadratic_spline", 5, 1, 0),
+            Curve::Cubic => ("cubic_spline", 6, 1, 1),
+            Curve::Bezier => ("bezier_spline", 4, 0, 0),
         };
+        let name = &format!("a {of} of {spline}");
         self.peek()?;
         let at = self.here();
         let count = self.point_count(name, least)?;
@@ -111,7 +112,7 @@ impl Parser<'_> {
                 if current.len() < least as usize {
                     let (n, len) = (outlines.len() + 1, current.len());
                     let text =
-                        format!("outline {n} of this prism has {len} points, it needs {least} at least");
+                        format!("outline {n} of this {of} has {len} points, it needs {least} at least");
                     return Err(Error::invalid(start, text));
                 }
                 outlines.push(std::mem::take(&mut current));
@@ -122,10 +123,10 @@ impl Parser<'_> {
             let text = match curve {
                 Curve::Cubic => {
                     format!(
-                        "outline {n} of this prism does not come back to <{x}, {z}>, with one point behind that"
+                        "outline {n} of this {of} does not come back to <{x}, {z}>, with one point behind that"
                     )
                 }
-                _ => format!("outline {n} of this prism does not come back to <{x}, {z}>, where it begins"),
+                _ => format!("outline {n} of this {of} does not come back to <{x}, {z}>, where it begins"),
             };
             return Err(Error::invalid(start, text));
         }
@@ -284,7 +285,7 @@ impl Parser<'_> {
     }
 
     /// How many points follow, and the comma behind it.
-    fn point_count(&mut self, what: &str, least: u32) -> Result<usize> {
+    pub(super) fn point_count(&mut self, what: &str, least: u32) -> Result<usize> {
         self.peek()?;
         let at = self.here();
         let count = self.float()?;
@@ -296,7 +297,7 @@ impl Parser<'_> {
     }
 
     /// Points of outlines: each ends where its first point comes again.
-    fn outlines(&mut self, count: usize, place: Place) -> Result<Vec<Vec<[f64; 2]>>> {
+    pub(super) fn outlines(&mut self, of: &str, count: usize, place: Place) -> Result<Vec<Vec<[f64; 2]>>> {
         let (mut outlines, mut current) = (Vec::new(), Vec::<[f64; 2]>::new());
         for n in 0..count {
             let point = self.vector2()?;
@@ -317,12 +318,13 @@ impl Parser<'_> {
                 let (n, len) = (i + 1, outline.len());
                 return Err(Error::invalid(
                     place,
-                    format!("outline {n} of this prism has {len} different points, it needs 3 at least"),
+                    format!("outline {n} of this {of} has {len} different points, it needs 3 at least"),
                 ));
             }
         }
         if is_unclosed {
-            self.notice(place, "this prism does not end at its first point: it is closed");
+            let text = format!("this {of} does not end at its first point: it is closed");
+            self.notice(place, &text);
         }
         Ok(outlines)
     }

@@ -6,7 +6,7 @@ use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
 
 /// Every kind of solid, placed so that many have faces, edges and tangent planes in common.
-const KINDS: [(&str, &str); 52] = [
+const KINDS: [(&str, &str); 54] = [
     ("ball", "sphere { <0.5, 0, 0>, 1.25 }"),
     ("block", "box { <-1, -0.5, -1>, <1, 1, 0.5> }"),
     ("turned block", "box { <-1, -0.5, -1>, <1, 1, 0.5> rotate <20, 30, 40> }"),
@@ -60,6 +60,14 @@ const KINDS: [(&str, &str); 52] = [
     ),
     ("prism", "prism { -0.5, 1, 7, <-1, -1>, <1, -1>, <1, 0>, <0, 0>, <0, 1>, <-1, 1>, <-1, -1> }"),
     ("star prism", "prism { -0.5, 1, 6, <0, 1>, <0.5, -1>, <-1, 0.25>, <1, 0.25>, <-0.5, -1>, <0, 1> }"),
+    (
+        "sweep",
+        "sweep { profile linear_spline 4, <-1, -1>, <1, -1>, <0, 1>, <-1, -1> path linear_spline 2, <0, -0.5, 0>, <0.25, 0.75, 1> }",
+    ),
+    (
+        "conic sweep",
+        "sweep { profile linear_spline 4, <-1, -1>, <1, -1>, <0, 1>, <-1, -1> path linear_spline 2, <0, -0.5, 0>, <0.25, 0.75, 1> size 2, 0.5, 1 }",
+    ),
     ("conic prism", "prism { conic_sweep 0, 1, 5, <-1, -1>, <1, -1>, <1, 1>, <-1, 1>, <-1, -1> }"),
     ("sor", "sor { 6, <0.5, -1>, <0.75, -0.5>, <1, 0>, <0.5, 0.5>, <0.75, 1>, <1, 1.5> }"),
     ("ovus", "ovus { 0.75, 0.5 }"),

@@ -1,6 +1,7 @@
 //! CSG of every kind of solid in the language: the identities of sets, and volumes.
 
 mod identities;
+mod same_shape;
 #[path = "../support/mod.rs"]
 mod support;
 mod volumes;

@@ -202,6 +202,117 @@ fn thirty_solids_have_their_volumes() {
     ]);
 }
 
+/// The points and derivatives of a cubic Bezier curve at the five nodes of Gauss and Legendre's
+/// rule, with the weights. The rule is exact for polynomials of degree 9.
+fn gauss([a, b, c, d]: [[f64; 2]; 4]) -> [([f64; 2], [f64; 2], f64); 5] {
+    let root = (10.0_f64 / 7.0).sqrt();
+    let (near, far) = ((5.0 - 2.0 * root).sqrt() / 3.0, (5.0 + 2.0 * root).sqrt() / 3.0);
+    let (more, less) = ((322.0 + 13.0 * 70.0_f64.sqrt()) / 900.0, (322.0 - 13.0 * 70.0_f64.sqrt()) / 900.0);
+    [(0.0, 128.0 / 225.0), (near, more), (-near, more), (far, less), (-far, less)].map(|(x, weight)| {
+        let (t, u) = (0.5 + 0.5 * x, 0.5 - 0.5 * x);
+        let at =
+            |i: usize| u * u * u * a[i] + 3.0 * u * u * t * b[i] + 3.0 * u * t * t * c[i] + t * t * t * d[i];
+        let slope =
+            |i: usize| 3.0 * (u * u * (b[i] - a[i]) + 2.0 * u * t * (c[i] - b[i]) + t * t * (d[i] - c[i]));
+        ([at(0), at(1)], [slope(0), slope(1)], 0.5 * weight)
+    })
+}
+
+/// The points in the order of the scene language.
+fn listed(points: &[[f64; 2]]) -> String {
+    points.iter().map(|[a, b]| format!(", <{a}, {b}>")).collect()
+}
+
+#[test]
+fn swept_solids_have_their_volumes() {
+    let s = |text: &str| text.to_owned();
+    // An egg-shaped closed curve of two cubics.
+    let egg = [
+        [1.0, -0.5],
+        [2.0, -0.5],
+        [2.0, 0.75],
+        [1.25, 0.75],
+        [1.25, 0.75],
+        [0.5, 0.75],
+        [0.25, -0.5],
+        [1.0, -0.5],
+    ];
+    let pieces = [[egg[0], egg[1], egg[2], egg[3]], [egg[4], egg[5], egg[6], egg[7]]];
+    let integral = |f: fn([f64; 2], [f64; 2]) -> f64| -> f64 {
+        pieces.iter().flat_map(|p| gauss(*p)).map(|(at, slope, weight)| weight * f(at, slope)).sum()
+    };
+    // G. Green's theorem, and P. Guldin's for the solid of revolution.
+    let (area, turned) = (integral(|[a, _], [_, db]| a * db), integral(|[a, _], [_, db]| PI * a * a * db));
+    // Catmull and Rom's cubics through the same number of points, as Bezier pieces.
+    let through = [[1.0, -0.75], [1.5, 0.0], [1.0, 0.75], [0.5, 0.0]];
+    let catmull: f64 = (0..4)
+        .flat_map(|i| {
+            let [p, q, r, t] = [3, 0, 1, 2].map(|k| through[(i + k) % 4]);
+            let towards = |from: [f64; 2], a: [f64; 2], b: [f64; 2], sign: f64| {
+                [0, 1].map(|k| from[k] + sign * (b[k] - a[k]) / 6.0)
+            };
+            gauss([q, towards(q, p, r, 1.0), towards(r, q, t, -1.0), r])
+        })
+        .map(|([r, _], [_, dy], weight)| weight * PI * r * r * dy)
+        .sum();
+    let round = [3, 0, 1, 2, 3, 0, 1].map(|k: usize| through[k]);
+    // The tangent cone of two balls touches them at this sine from the planes across its axis.
+    let sine: f64 = 0.5 / 2.0;
+    let cosine = (1.0 - sine * sine).sqrt();
+    let drop = frustum(cosine, 0.5 * cosine, 2.0 * cosine * cosine)
+        + cap(1.0, 1.0 + sine)
+        + cap(0.5, 0.5 * (1.0 - sine));
+    let hexagon = "linear_spline 7, <1, 0>, <0.5, 1>, <-0.5, 1>, <-1, 0>, <-0.5, -1>, <0.5, -1>, <1, 0>";
+    let path = "path linear_spline 2, <-0.5, 0, 0.25>, <0.5, 1, 0.75>";
+    check(&[
+        (
+            "lathe of a square",
+            s("lathe { linear_spline 5, <1, 0>, <2, 0>, <2, 1>, <1, 1>, <1, 0> }"),
+            3.0 * PI,
+        ),
+        ("lathe of a triangle", s("lathe { linear_spline 4, <1, 0>, <2, 0>, <1.5, 1>, <1, 0> }"), 1.5 * PI),
+        (
+            "lathe of lines to the axis",
+            s("lathe { linear_spline 4, <0, 0>, <1, 0>, <0.5, 1>, <0, 1> }"),
+            frustum(1.0, 0.5, 1.0),
+        ),
+        (
+            "lathe of a parabola",
+            s(
+                "lathe { bezier_spline 8, <0, 0>, <0.5, 0>, <1, 0.75>, <1.5, 2.25>, <1.5, 2.25>, <1, 2.25>, <0.5, 2.25>, <0, 2.25> }",
+            ),
+            PI * 2.25 * 2.25 / 2.0,
+        ),
+        ("lathe of Bezier curves", format!("lathe {{ bezier_spline 8{} }}", listed(&egg)), turned),
+        ("lathe of cubics", format!("lathe {{ cubic_spline 7{} }}", listed(&round)), catmull),
+        (
+            "capsule",
+            s("sphere_sweep { linear_spline 2, <-1, 0, 0>, 0.5, <0.5, 0, 2>, 0.5 }"),
+            PI * 0.25 * 2.5 + ball(0.5),
+        ),
+        ("drop", s("sphere_sweep { linear_spline 2, 0, 1, 2*x, 0.5 }"), drop),
+        ("ball in a ball", s("sphere_sweep { linear_spline 2, 0, 1, 0.25*x, 0.5 }"), ball(1.0)),
+        (
+            "straight B-spline",
+            s("sphere_sweep { b_spline 4, -3*y, 0.5, -y, 0.5, y, 0.5, 3*y, 0.5 }"),
+            PI * 0.25 * 2.0 + ball(0.5),
+        ),
+        ("sweep", format!("sweep {{ profile {hexagon} {path} }}"), 3.0 * 1.5),
+        (
+            "conic sweep",
+            format!("sweep {{ profile {hexagon} {path} size 2, 0.5, 1.5 up z }}"),
+            3.0 * 1.5 * 3.25 / 3.0,
+        ),
+        (
+            "sweep of Bezier curves",
+            format!("sweep {{ profile bezier_spline 8{} {path} size 2, 1, 0.5 }}", listed(&egg)),
+            area * 1.5 * 1.75 / 3.0,
+        ),
+        ("sponge", s("ifs { menger 2 }"), 8.0 * (20.0_f64 / 27.0).powi(2)),
+        ("tetrahedra", s("ifs { sierpinski 2 }"), 8.0 / 3.0 / 4.0),
+    ]);
+}
+
 #[test]
 fn thirty_trees_have_their_volumes() {
     let s = |text: &str| text.to_owned();

@@ -461,6 +461,37 @@ class Prism(Object):
 
 
 @final
+class Sweep(Object):
+    """Closed outlines, arrays (n, 2), moved along a straight path, an array (2, 3) of its ends.
+
+    The profile's size goes evenly from `sizes[0]` to `sizes[1]`. Its second axis points to the side of `up`; without
+    `up`, the smallest rotation of z onto the path turns x and y into its axes. `spline` says how an outline goes through
+    its points: "linear" or "bezier" (four points for each piece).
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        outlines: Iterable[npt.ArrayLike],
+        path: npt.ArrayLike,
+        sizes: npt.ArrayLike = (1.0, 1.0),
+        up: npt.ArrayLike | None = None,
+        spline: str = "linear",
+    ) -> None:
+        loops = tuple(_rows(outline, 2, "outlines") for outline in outlines)
+        ends = _rows(path, 3, "path")
+        if len(ends) != 2:
+            raise ValueError(f"path: shape (2, 3) is needed, got ({len(ends)}, 3)")
+        both = real_array(sizes, "sizes")
+        if both.shape != (2,):
+            raise ValueError(f"sizes: shape (2,) is needed, got {both.shape}")
+        side = None if up is None else vector(up, "up")
+        arguments = (loops, ends, (float(both[0]), float(both[1])), side, str(spline))
+        self._set(_native.sweep(*arguments), arguments)
+
+
+@final
 class SphereSweep(Object):
     """All balls whose centres and radii follow a spline of `spheres`, an array (n, 4) of x, y, z and radius.
 

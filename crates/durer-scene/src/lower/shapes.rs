@@ -108,30 +108,14 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.contain(&solid, map);
             target.add_rare(solid, map);
         }
-        Shape::Prism(prism) => {
-            let [from, to] = prism.heights;
-            match prism.spline {
-                Spline::Linear => {
-                    let solid = match prism.sweep {
-                        Sweep::Linear => Prism::linear(&prism.outlines, from, to),
-                        Sweep::Conic => Prism::conic(&prism.outlines, from, to),
-                    }
-                    .map_err(shape_error)?;
-                    target.contain(&solid, map);
-                    target.add_rare(if open { solid.without_caps() } else { solid }, map);
-                }
-                Spline::Curved(spline) => {
-                    let outlines: Vec<_> =
-                        prism.outlines.iter().map(|points| spline.pieces(points)).collect();
-                    let solid = match prism.sweep {
-                        Sweep::Linear => CurvedPrism::linear(&outlines, from, to),
-                        Sweep::Conic => CurvedPrism::conic(&outlines, from, to),
-                    }
-                    .map_err(shape_error)?;
-                    target.contain(&solid, map);
-                    target.add_rare(if open { solid.without_caps() } else { solid }, map);
-                }
-            }
+        Shape::Prism(shape) => {
+            prism(&shape.outlines, shape.spline, shape.heights, shape.sweep, open, map, &mut target)?;
+        }
+        Shape::StraightSweep(shape) => {
+            let path = shape.straight_path().map_err(shape_error)?;
+            let sweep = if path.is_conic() { Sweep::Conic } else { Sweep::Linear };
+            let all = path.placement().then(place)?;
+            prism(&shape.outlines, shape.spline, path.heights(), sweep, open, Some(&all), &mut target)?;
         }
         Shape::SphereSweep(spline, spheres) => match SphereSweep::new(*spline, spheres) {
             Err(nothing @ SphereSweepError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
@@ -201,6 +185,40 @@ pub(super) fn container(it: Container) -> Result<durer_surfaces::Container> {
             durer_surfaces::Container::Ball(Sphere::new(centre, radius.abs()).map_err(shape_error)?)
         }
     })
+}
+
+/// Adds the prism of these outlines between two heights.
+fn prism(
+    outlines: &[Vec<[f64; 2]>],
+    spline: Spline,
+    [from, to]: [f64; 2],
+    sweep: Sweep,
+    open: bool,
+    map: Option<&Affine>,
+    target: &mut Target<'_>,
+) -> Result<()> {
+    match spline {
+        Spline::Linear => {
+            let solid = match sweep {
+                Sweep::Linear => Prism::linear(outlines, from, to),
+                Sweep::Conic => Prism::conic(outlines, from, to),
+            }
+            .map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(if open { solid.without_caps() } else { solid }, map);
+        }
+        Spline::Curved(spline) => {
+            let outlines: Vec<_> = outlines.iter().map(|points| spline.pieces(points)).collect();
+            let solid = match sweep {
+                Sweep::Linear => CurvedPrism::linear(&outlines, from, to),
+                Sweep::Conic => CurvedPrism::conic(&outlines, from, to),
+            }
+            .map_err(shape_error)?;
+            target.contain(&solid, map);
+            target.add_rare(if open { solid.without_caps() } else { solid }, map);
+        }
+    }
+    Ok(())
 }
 
 /// Adds a solid of revolution.
@@ -515,6 +533,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "a torus",
         Shape::Cyclide { .. } => "a cyclide",
         Shape::Prism(_) => "a prism",
+        Shape::StraightSweep(_) => "a sweep",
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",

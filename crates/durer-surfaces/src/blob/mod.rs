@@ -185,6 +185,10 @@ impl PartialEq for Blob {
 }
 
 impl Surface for Blob {
+    fn name(&self) -> &'static str {
+        "blob"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

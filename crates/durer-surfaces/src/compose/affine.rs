@@ -40,6 +40,10 @@ impl<S: Surface> Placed<S> {
 }
 
 impl<S: Surface> Surface for Placed<S> {
+    fn name(&self) -> &'static str {
+        self.surface.name()
+    }
+
     fn bounds(&self) -> Aabb {
         self.surface.bounds_through(&self.map)
     }

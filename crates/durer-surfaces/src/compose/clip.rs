@@ -270,6 +270,10 @@ impl<S: Algebraic, K: Sink + ?Sized> Sink for Keeping<'_, '_, S, K> {
 }
 
 impl<S: Algebraic> Surface for Clip<S> {
+    fn name(&self) -> &'static str {
+        self.surface.name()
+    }
+
     fn bounds(&self) -> Aabb {
         let whole = self.surface.bounds_among(&self.regions, None);
         self.regions.iter().fold(whole, |b, r| b.intersection(r.bounds()))

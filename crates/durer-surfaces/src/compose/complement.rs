@@ -34,6 +34,10 @@ fn turned(ray: &LocalRay<'_>) -> Option<RaySide> {
 }
 
 impl<S: Surface> Surface for Complement<S> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
     /// The surface's bounds for a sheet; none for a solid, whose inside is all the rest.
     fn bounds(&self) -> Aabb {
         match self.solidity() {

@@ -75,6 +75,10 @@ impl DynSurface {
 }
 
 impl Surface for DynSurface {
+    fn name(&self) -> &'static str {
+        self.surface.name()
+    }
+
     fn bounds(&self) -> Aabb {
         self.surface.bounds()
     }

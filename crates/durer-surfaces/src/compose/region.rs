@@ -97,6 +97,10 @@ fn plane_chart(y: Vec3, n: Vec3) -> Chart {
 const ORIGIN: Frame = Frame { centre: Point3::ORIGIN, scale: 0, reach: f64::INFINITY };
 
 impl QuadricFaces for Block {
+    fn name(&self) -> &'static str {
+        "box"
+    }
+
     fn frame(&self) -> Frame {
         ORIGIN
     }
@@ -123,6 +127,10 @@ impl QuadricFaces for Block {
 }
 
 impl QuadricFaces for HalfSpace {
+    fn name(&self) -> &'static str {
+        "half-space"
+    }
+
     fn frame(&self) -> Frame {
         ORIGIN
     }

@@ -329,6 +329,10 @@ impl PartialEq for Ifs {
 }
 
 impl Surface for Ifs {
+    fn name(&self) -> &'static str {
+        "iterated function system"
+    }
+
     fn bounds(&self) -> Aabb {
         self.0.bounds[self.0.depth as usize]
     }

@@ -159,6 +159,10 @@ impl Isosurface {
 }
 
 impl Surface for Isosurface {
+    fn name(&self) -> &'static str {
+        "isosurface"
+    }
+
     fn bounds(&self) -> Aabb {
         self.container.bounds()
     }

@@ -232,6 +232,10 @@ fn least_ball(set: &Julia, most: f64, size: f64) -> f64 {
 }
 
 impl Surface for JuliaSet {
+    fn name(&self) -> &'static str {
+        "Julia set"
+    }
+
     fn bounds(&self) -> Aabb {
         let radius = self.radius();
         Aabb::centred(Point3::ORIGIN, Vec3::new(radius, radius, radius))

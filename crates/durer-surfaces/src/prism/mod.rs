@@ -20,6 +20,9 @@
 
 pub mod curved;
 mod outline;
+mod straight_path;
+
+pub use straight_path::{StraightPath, StraightPathError};
 
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
@@ -392,6 +395,10 @@ fn root(probe: &Probe<'_>, crossing: &Crossing, face: u32, wall: f64, turned: bo
 }
 
 impl Surface for Prism {
+    fn name(&self) -> &'static str {
+        "prism"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

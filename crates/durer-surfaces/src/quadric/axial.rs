@@ -19,6 +19,9 @@ pub type Axial<W> = QuadricSolid<AxialShape<W>>;
 
 /// The wall of a canonical quadric.
 pub trait Wall: Clone + Copy + core::fmt::Debug + PartialEq + Send + Sync {
+    /// The name of the surface.
+    const NAME: &'static str;
+
     /// The polynomial in `y` with `x = 2^k y`, negative inside.
     fn form<T: Ring>(&self, k: i32) -> Form<T>;
 
@@ -132,6 +135,10 @@ impl<W: Wall> AxialShape<W> {
 }
 
 impl<W: Wall> QuadricFaces for AxialShape<W> {
+    fn name(&self) -> &'static str {
+        W::NAME
+    }
+
     fn frame(&self) -> Frame {
         self.frame
     }

@@ -76,6 +76,11 @@ pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
 
 /// A solid with quadric faces: the methods that its author writes. Everything else follows.
 pub trait QuadricFaces: Send + Sync {
+    /// See [`Surface::name`].
+    fn name(&self) -> &'static str {
+        "quadric"
+    }
+
     /// Centre, unit of length and reach.
     fn frame(&self) -> Frame;
 

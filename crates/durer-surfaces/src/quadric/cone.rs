@@ -37,6 +37,8 @@ impl Cone {
 }
 
 impl Wall for ConeWall {
+    const NAME: &'static str = "elliptic cone";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let ([x, y, z], _) = products::<T>(self.axes, k);
         Form::diagonal([x, y, -z], T::exact(0.0))

@@ -77,6 +77,8 @@ fn squares<T: Ring>(axes: [f64; 2], k: i32) -> [T; 2] {
 }
 
 impl Wall for EllipticWall {
+    const NAME: &'static str = "elliptic cylinder";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let [a, b] = squares::<T>(self.axes, k);
         Form::diagonal([b.clone(), a.clone(), T::exact(0.0)], -(a * b))
@@ -96,6 +98,8 @@ impl Wall for EllipticWall {
 }
 
 impl Wall for HyperbolicWall {
+    const NAME: &'static str = "hyperbolic cylinder";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let [a, b] = squares::<T>(self.axes, k);
         Form::diagonal([b.clone(), -a.clone(), T::exact(0.0)], -(a * b))
@@ -116,6 +120,8 @@ impl Wall for HyperbolicWall {
 }
 
 impl Wall for ParabolicWall {
+    const NAME: &'static str = "parabolic cylinder";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         // b X² - a² Y in units of 2^k: a²b f, times the power of two that makes its larger
         // coefficient about one.

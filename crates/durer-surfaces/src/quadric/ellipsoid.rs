@@ -44,6 +44,8 @@ pub(crate) fn products<T: Ring>(axes: [f64; 3], k: i32) -> ([T; 3], T) {
 }
 
 impl Wall for EllipsoidWall {
+    const NAME: &'static str = "ellipsoid";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let (q, c) = products::<T>(self.axes, k);
         Form::diagonal(q, -c)

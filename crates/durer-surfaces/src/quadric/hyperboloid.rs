@@ -50,6 +50,8 @@ impl HyperboloidOfTwoSheets {
 }
 
 impl Wall for OneSheet {
+    const NAME: &'static str = "hyperboloid of one sheet";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let ([x, y, z], c) = products::<T>(self.axes, k);
         Form::diagonal([x, y, -z], -c)
@@ -70,6 +72,8 @@ impl Wall for OneSheet {
 }
 
 impl Wall for TwoSheets {
+    const NAME: &'static str = "hyperboloid of two sheets";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         let ([x, y, z], c) = products::<T>(self.axes, k);
         Form::diagonal([x, y, -z], c)

@@ -69,6 +69,8 @@ fn graph<T: Ring>(axes: [f64; 3], k: i32, saddle: bool) -> Form<T> {
 }
 
 impl Wall for Bowl {
+    const NAME: &'static str = "elliptic paraboloid";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         graph(self.axes, k, false)
     }
@@ -96,6 +98,8 @@ impl Wall for Bowl {
 }
 
 impl Wall for Saddle {
+    const NAME: &'static str = "hyperbolic paraboloid";
+
     fn form<T: Ring>(&self, k: i32) -> Form<T> {
         graph(self.axes, k, true)
     }

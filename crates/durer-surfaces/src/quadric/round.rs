@@ -191,6 +191,10 @@ impl CappedCylinder {
 }
 
 impl QuadricFaces for CylinderShape {
+    fn name(&self) -> &'static str {
+        "cylinder"
+    }
+
     fn frame(&self) -> Frame {
         self.axis.frame(self.radius)
     }
@@ -259,6 +263,10 @@ impl Frustum {
 }
 
 impl QuadricFaces for FrustumShape {
+    fn name(&self) -> &'static str {
+        "cone"
+    }
+
     fn frame(&self) -> Frame {
         self.axis.frame(self.radii[0].max(self.radii[1]))
     }

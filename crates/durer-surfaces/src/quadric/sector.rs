@@ -100,6 +100,10 @@ impl SectorShape {
 }
 
 impl QuadricFaces for SectorShape {
+    fn name(&self) -> &'static str {
+        "spherical sector"
+    }
+
     fn frame(&self) -> Frame {
         let scale = self.scale();
         Frame { centre: self.centre, scale, reach: scale2(self.radius, -scale) * (1.0 + 2.0 * U) }

@@ -38,6 +38,10 @@ impl<S: QuadricFaces> QuadricSolid<S> {
 }
 
 impl<S: QuadricFaces> Surface for QuadricSolid<S> {
+    fn name(&self) -> &'static str {
+        self.shape.name()
+    }
+
     fn bounds(&self) -> Aabb {
         self.shape.bounds()
     }

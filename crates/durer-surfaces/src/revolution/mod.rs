@@ -429,6 +429,10 @@ impl Sink for Keeping<'_, '_> {
 }
 
 impl Surface for SurfaceOfRevolution {
+    fn name(&self) -> &'static str {
+        "surface of revolution"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

@@ -240,6 +240,10 @@ impl PartialEq for SphereSweep {
 }
 
 impl Surface for SphereSweep {
+    fn name(&self) -> &'static str {
+        "sphere sweep"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

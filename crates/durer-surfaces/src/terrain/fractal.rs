@@ -139,6 +139,8 @@ impl Midpoints {
 }
 
 impl Heights for Midpoints {
+    const NAME: &'static str = "terrain";
+
     type Data = [f64; 4];
 
     #[inline(always)]

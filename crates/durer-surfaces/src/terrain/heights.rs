@@ -26,6 +26,9 @@ impl Block {
 
 /// Heights at the points of a grid, and bounds for blocks of it.
 pub trait Heights: Clone + Debug + Send + Sync {
+    /// The name of the surface.
+    const NAME: &'static str;
+
     /// What is known of a block.
     type Data: Copy;
 

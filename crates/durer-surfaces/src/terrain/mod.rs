@@ -300,6 +300,10 @@ impl AlongRay for Depth<'_> {
 }
 
 impl<H: Heights> Surface for Sheet<H> {
+    fn name(&self) -> &'static str {
+        H::NAME
+    }
+
     fn bounds(&self) -> Aabb {
         if self.is_solid { Aabb::UNBOUNDED } else { self.sheet_bounds() }
     }

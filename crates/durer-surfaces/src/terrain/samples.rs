@@ -246,6 +246,8 @@ fn outward(x: f64) -> [f32; 2] {
 }
 
 impl Heights for Samples {
+    const NAME: &'static str = "height field";
+
     type Data = ();
 
     #[inline(always)]

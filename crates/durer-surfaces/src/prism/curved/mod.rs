@@ -223,6 +223,10 @@ fn closed(outlines: &[impl AsRef<[Bezier]>]) -> Result<Vec<Vec<Bezier>>, PrismEr
 }
 
 impl Surface for CurvedPrism {
+    fn name(&self) -> &'static str {
+        "prism"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }

@@ -183,6 +183,10 @@ fn volume(piece: &Piece) -> f64 {
 }
 
 impl Surface for Lathe {
+    fn name(&self) -> &'static str {
+        "lathe"
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }
