@@ -13,6 +13,9 @@ pub(super) trait Enclosure: Send + Sync {
     /// Whether a ray that starts on the solid's surface goes into the solid.
     fn enters(&self, ray: &Ray) -> bool;
 
+    /// Whether a box holds all of it.
+    fn is_bounded(&self) -> bool;
+
     /// Whether all points of a box lie inside it. `None` unless certainly all of them do or none
     /// does.
     fn holds_all(&self, region: &Aabb) -> Option<bool>;
@@ -48,6 +51,10 @@ impl<S: Surface> Enclosure for Held<S> {
         first.enters() != self.inverse
     }
 
+    fn is_bounded(&self) -> bool {
+        !self.inverse && self.solid.bounds().is_bounded()
+    }
+
     /// If the surface does not pass through the box, all points are on the same side.
     fn holds_all(&self, region: &Aabb) -> Option<bool> {
         let is_missed = self.solid.misses(&Shaft::between(*region, *region));
@@ -62,6 +69,10 @@ impl Enclosure for Arc<Compound> {
 
     fn enters(&self, ray: &Ray) -> bool {
         Compound::enters(self, &LocalRay::new(ray))
+    }
+
+    fn is_bounded(&self) -> bool {
+        self.bounds().is_bounded()
     }
 
     fn holds_all(&self, region: &Aabb) -> Option<bool> {

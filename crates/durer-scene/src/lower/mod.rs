@@ -153,8 +153,8 @@ impl Lowered {
         self.primitives.of(object, primitive)
     }
 
-    /// Appends the media of all solids inside which a camera ray starts, in the order of the text.
-    /// A ray that starts on the surface of a solid and goes into it starts inside.
+    /// Appends the media of all solids inside which a camera ray starts: first those of solids
+    /// without bounds, then the others, each in the order of the text. A ray that starts on the surface of a solid and goes into it starts inside.
     pub fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
             if !media.contains(medium) && solid.holds_start(ray) {
@@ -163,7 +163,7 @@ impl Lowered {
         }
     }
 
-    /// The media of all solids that contain a point, in the order of the text; `None` if the point
+    /// The media of all solids that contain a point, in the order of [`Lowered::media_of`]; `None` if the point
     /// lies on the surface of one: then the direction of a ray decides.
     pub fn media_at(&self, point: Point3) -> Option<Vec<u32>> {
         let mut media = Vec::new();
@@ -290,13 +290,17 @@ impl Lowering {
     fn finish(mut self) -> Result<Lowered, LowerError> {
         let geometry = self.builder.build().map_err(|e| LowerErrorKind::from(e).at(None))?;
         let (looks, primitives) = self.table.finish();
+        // Solids without bounds, such as a sky, enclose the others.
+        let (bounded, mut around_camera): (Vec<_>, Vec<_>) =
+            self.around_camera.into_iter().partition(|(_, solid)| solid.is_bounded());
+        around_camera.extend(bounded);
         Ok(Lowered {
             geometry,
             looks,
             media: self.media,
             warnings: self.warnings,
             primitives,
-            around_camera: self.around_camera,
+            around_camera,
         })
     }
 
