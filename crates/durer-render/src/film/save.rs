@@ -156,7 +156,8 @@ impl Film {
         out.write_all(&self.bytes(bits, false))
     }
 
-    fn write_exr(&self, out: &mut BufWriter<File>) -> io::Result<()> {
+    /// Writes an OpenEXR file.
+    pub fn write_exr(&self, out: &mut (impl Write + io::Seek)) -> io::Result<()> {
         use exr::prelude::{Image, SpecificChannels, WritableImage};
         let size = (self.width as usize, self.height as usize);
         let at = |p: exr::math::Vec2<usize>| {
