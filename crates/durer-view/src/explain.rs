@@ -7,7 +7,7 @@ use durer_geometry::{Event, Explanation, Hit, Span};
 use durer_math::{Point3, Ray, Vec3};
 use durer_render::film::Encoding;
 use durer_render::{PixelTracer, Progress, RayKind, RayTree, TracedRay};
-use durer_scene::{Lowered, Rgb};
+use durer_scene::{Lowered, Place, Rgb};
 use durer_surfaces::RootKind;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -41,7 +41,7 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
         "ray": { "origin": point(ray.origin), "direction": vector(ray.direction), "length": ray.direction.length() },
         "hit": explanation.closest.as_ref().map(|hit| first_hit(stage, lowered, &ray, hit, &names)),
         "source": explanation.closest.as_ref().map_or(Value::Null, |hit| source::excerpt(stage, place(hit))),
-        "crossings": crossings.iter().map(|hit| crossing(hit, &names, source::line(stage, place(hit)))).collect::<Vec<_>>(),
+        "crossings": crossings.iter().map(|hit| crossing(stage, hit, &names, place(hit))).collect::<Vec<_>>(),
         "more": has_more,
         "spans": spans.iter().map(span).collect::<Vec<_>>(),
         "tree": tree.as_ref().map(|tree| rays(stage, lowered, tree, encoding)),
@@ -77,7 +77,7 @@ fn first_hit(
 ) -> Value {
     let at = lowered.geometry.resolve(ray, hit);
     let place = source::place(&stage.scene, lowered, hit.object, hit.primitive);
-    let mut value = crossing(hit, names, source::line(stage, place));
+    let mut value = crossing(stage, hit, names, place);
     let more = json!({
         "face": hit.face, "instance": hit.instance,
         "position": point(at.p), "bound": vector(at.dp),
@@ -89,7 +89,15 @@ fn first_hit(
     value
 }
 
-fn crossing(hit: &Hit, names: &HashMap<(u32, u32), &'static str>, line: Option<usize>) -> Value {
+fn crossing(
+    stage: &Stage,
+    hit: &Hit,
+    names: &HashMap<(u32, u32), &'static str>,
+    place: Option<Place>,
+) -> Value {
+    // The parts of a compound solid are known by their words in the text.
+    let name = names.get(&(hit.object, hit.primitive)).filter(|name| **name != "Compound");
+    let name = name.map(|name| (*name).to_owned()).or_else(|| source::word(stage, place));
     let kind = match hit.kind {
         RootKind::Simple => "simple",
         RootKind::Grazing => "grazing",
@@ -97,7 +105,7 @@ fn crossing(hit: &Hit, names: &HashMap<(u32, u32), &'static str>, line: Option<u
     };
     json!({
         "t": hit.t, "lo": hit.t_lo, "hi": hit.t_hi, "object": hit.object, "primitive": hit.primitive,
-        "sign": hit.sign, "kind": kind, "surface": names.get(&(hit.object, hit.primitive)), "line": line,
+        "sign": hit.sign, "kind": kind, "surface": name, "line": source::line(stage, place),
     })
 }
 

@@ -40,6 +40,13 @@ pub(crate) fn line(stage: &Stage, place: Option<Place>) -> Option<usize> {
     Some(stage.origin.text.as_ref()?.locate(place?)?.line)
 }
 
+/// The word at a place.
+pub(crate) fn word(stage: &Stage, place: Option<Place>) -> Option<String> {
+    let at = stage.origin.text.as_ref()?.locate(place?)?;
+    let line = at.text.lines().nth(at.line - 1)?;
+    Some(line.chars().skip(at.column - 1).take(at.length.min(MOST_CHARS)).collect())
+}
+
 struct Search {
     wanted: u64,
     count: u64,

@@ -37,6 +37,7 @@ function show(next) {
     image.data.fill(255);
   }
   $("name").textContent = next.name;
+  $("name").dataset.reads = next.reads;
   document.title = `${next.name} - durer`;
   $("channel").value = next.channel;
   if (![...$("aa").options].some(option => option.value === next.aa)) $("aa").add(new Option(next.aa, next.aa));
@@ -92,7 +93,11 @@ function paint(message) {
     x1 = Math.max(x1, x + w); y1 = Math.max(y1, y + h);
   }
   context.putImageData(image, 0, 0, x0, y0, x1 - x0, y1 - y0);
-  timings.first[generation] ??= performance.now();
+  if (!(generation in timings.first)) {
+    timings.first[generation] = null;
+    // The browser shows the pixels with its next frame.
+    requestAnimationFrame(() => { timings.first[generation] = performance.now(); });
+  }
   if (generation >= latest) arrived();
 }
 

@@ -99,7 +99,7 @@ function along({ crossings, spans, ray, more }) {
   const width = 400, left = 6, right = 10;
   const at = t => left + (t === null ? width - left : Math.min((t - cut) / ((far - cut) * 1.08) * (width - left - right), width - left));
   const svg = draw("svg", {
-    class: "along", viewBox: `0 0 ${width} 74`, role: "img",
+    class: "along", viewBox: `0 0 ${width} 82`, role: "img",
     "aria-label": `${crossings.length} crossings and ${spans.length} stretches inside solids, from t = ${short(near)} to ${short(far)}`,
   });
   for (const s of spans) {
@@ -114,14 +114,14 @@ function along({ crossings, spans, ray, more }) {
     const stroke = draw("line", { class: `${kind}${i === 0 ? " first" : ""}`, x1: x, x2: x, y1: 13, y2: 41 });
     stroke.append(draw("title", {}, `t = ${c.t} in [${c.lo}, ${c.hi}], object ${c.object}, ${WAYS[c.sign]}`));
     svg.append(stroke);
-    if (x - lastLabel > 58 && x < width - 50) {
-      svg.append(draw("text", { x, y: 56, "text-anchor": i === 0 && x < 24 ? "start" : "middle" }, short(c.t)));
+    if (x - lastLabel > 58) {
+      svg.append(draw("text", { x, y: 56, "text-anchor": x < 24 ? "start" : x > width - 24 ? "end" : "middle" }, short(c.t)));
       lastLabel = x;
     }
   });
-  svg.append(draw("text", { x: width, y: 70, "text-anchor": "end" }, `t, in units of ${short(ray.length)}`));
-  if (cut) svg.append(draw("text", { x: left, y: 70 }, `begins at t = ${short(cut)}`));
-  else svg.append(draw("text", { x: 0, y: 70 }, "camera"));
+  svg.append(draw("text", { x: width, y: 77, "text-anchor": "end" }, `t, in units of ${short(ray.length)}`));
+  if (cut) svg.append(draw("text", { x: 0, y: 77 }, `begins at t = ${short(cut)}`));
+  else svg.append(draw("text", { x: 0, y: 77 }, "camera"));
   const box = make("div", {}, svg);
   if (more) box.append(make("p", { class: "hint" }, "There are more crossings than are listed."));
   return box;
