@@ -380,8 +380,9 @@ def check_page(durer, folder, shots):
             check(len(driver.find_elements("css selector", ".along .span")) >= 2, "stretches inside solids are not drawn")
             rays = [li.text for li in driver.find_elements("css selector", ".rays li")]
             check(any("reflected" in ray for ray in rays) and any("shadow ray to light 0" in ray for ray in rays), "the tree of rays is not whole")
+            x, y = (int(page.find(name).get_attribute("value")) for name in ("pixel-x", "pixel-y"))
             page.keys("s", "s", "d", Keys.ENTER)
-            page.wait("document.querySelector('.seen').textContent.includes('321, 262')", "a pixel chosen by keys")
+            page.wait(f"document.querySelector('.seen').textContent.includes('{x + 1}, {y + 2}')", "a pixel chosen by keys")
 
             shown = {first}
             for i, name in enumerate(["picture", "depth", "normal", "object", "uv", "bound", "steps", "inside"]):
