@@ -25,6 +25,8 @@ pub(crate) struct Canvas {
 #[derive(Clone, Copy, Debug)]
 struct Tile {
     version: u64,
+    /// The generation of the picture that its pixels belong to.
+    generation: u64,
     step: Step,
 }
 
@@ -35,7 +37,7 @@ impl Canvas {
             width,
             height,
             rgb: vec![[0; 3]; width as usize * height as usize],
-            tiles: vec![Tile { version: 0, step: (1, 1) }; tiles],
+            tiles: vec![Tile { version: 0, generation: 0, step: (1, 1) }; tiles],
             version: 0,
         }
     }
@@ -47,14 +49,15 @@ impl Canvas {
         }
     }
 
-    /// Marks the tiles of a region as changed. Every `step`-th pixel of them is known.
-    pub(crate) fn mark(&mut self, region: Region, step: Step) {
+    /// Marks the tiles of a region as changed in this generation. Every `step`-th pixel of them is
+    /// known.
+    pub(crate) fn mark(&mut self, region: Region, step: Step, generation: u64) {
         self.version += 1;
         let columns = self.width.div_ceil(TILE);
         for ty in region.y0 / TILE..region.y1.div_ceil(TILE) {
             for tx in region.x0 / TILE..region.x1.div_ceil(TILE) {
                 let tile = &mut self.tiles[(ty * columns + tx) as usize];
-                *tile = Tile { version: self.version, step };
+                *tile = Tile { version: self.version, generation, step };
             }
         }
     }
@@ -62,8 +65,9 @@ impl Canvas {
     /// Appends tiles that differ from those in `seen`, until the message has `enough` bytes, and
     /// notes them in `seen`. Each tile is its place (`x`, `y` as 16 bits, least significant byte
     /// first), its size and its step (columns, rows; one byte each), and the colours of every
-    /// `step`-th pixel, row by row.
-    pub(crate) fn news(&self, seen: &mut Seen, enough: usize, message: &mut Vec<u8>) {
+    /// `step`-th pixel, row by row. Returns the newest generation among them.
+    pub(crate) fn news(&self, seen: &mut Seen, enough: usize, message: &mut Vec<u8>) -> u64 {
+        let mut generation = 0;
         seen.0.resize(self.tiles.len(), 0);
         let columns = self.width.div_ceil(TILE);
         for (i, (tile, seen)) in self.tiles.iter().zip(&mut seen.0).enumerate() {
@@ -71,9 +75,10 @@ impl Canvas {
                 continue;
             }
             if message.len() >= enough {
-                return;
+                break;
             }
             *seen = tile.version;
+            generation = generation.max(tile.generation);
             let (x0, y0) = (i as u32 % columns * TILE, i as u32 / columns * TILE);
             let (x1, y1) = ((x0 + TILE).min(self.width), (y0 + TILE).min(self.height));
             message.extend((x0 as u16).to_le_bytes());
@@ -86,6 +91,7 @@ impl Canvas {
                 }
             }
         }
+        generation
     }
 }
 
@@ -116,8 +122,8 @@ mod tests {
         canvas.news(&mut seen, 1 << 20, &mut message);
         assert!(message.is_empty());
         canvas.put(&[(64, 32)], &[[1, 2, 3]]);
-        canvas.mark(Region { x0: 64, y0: 32, x1: 70, y1: 40 }, (8, 8));
-        canvas.news(&mut seen, 1 << 20, &mut message);
+        canvas.mark(Region { x0: 64, y0: 32, x1: 70, y1: 40 }, (8, 8), 7);
+        assert_eq!(canvas.news(&mut seen, 1 << 20, &mut message), 7);
         assert_eq!(message, [64, 0, 32, 0, 6, 8, 8, 8, 1, 2, 3]);
         message.clear();
         canvas.news(&mut seen, 1 << 20, &mut message);
@@ -127,7 +133,7 @@ mod tests {
     #[test]
     fn messages_are_bounded_and_nothing_is_lost() {
         let mut canvas = Canvas::new(320, 320);
-        canvas.mark(Region { x0: 0, y0: 0, x1: 320, y1: 320 }, (1, 1));
+        canvas.mark(Region { x0: 0, y0: 0, x1: 320, y1: 320 }, (1, 1), 1);
         let (mut seen, mut bytes, mut messages) = (Seen::default(), 0, 0);
         loop {
             let mut message = Vec::new();

@@ -66,21 +66,17 @@ impl Channel {
         let byte = |x: f64| (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         Some(match self {
             Self::Depth => Measure::Number(hit.t * length),
-            Self::Object => Measure::Colour(distinct(hit.object)),
-            Self::Bound => {
-                // Powers of ten; an exact hit has no length and counts as the least positive one.
-                let width = ((hit.t_hi - hit.t_lo) * length).max(1e-20);
-                Measure::Number(elementary::log10(width))
-            }
+            Self::Object => Measure::Values([f64::from(hit.object); 3], distinct(hit.object)),
+            Self::Bound => Measure::Number((hit.t_hi - hit.t_lo) * length),
             Self::Normal => {
                 let n = geometry.resolve(ray, &hit).ns.to_vec();
-                Measure::Colour([n.x, n.y, n.z].map(|c| byte(0.5 + 0.5 * c)))
+                let values = [n.x, n.y, n.z];
+                Measure::Values(values, values.map(|c| byte(0.5 + 0.5 * c)))
             }
             _ => {
-                let need = Need::ALL;
-                let [u, v] = geometry.resolve_with(ray, &hit, need).uv;
+                let [u, v] = geometry.resolve_with(ray, &hit, Need::UV).uv;
                 let part = |x: f64| if (0.0..=1.0).contains(&x) { x } else { x - x.floor() };
-                Measure::Colour([byte(part(u)), byte(part(v)), 64])
+                Measure::Values([u, v, 0.0], [byte(part(u)), byte(part(v)), 64])
             }
         })
     }
@@ -93,8 +89,25 @@ pub(crate) enum Measure {
     Nothing,
     /// A number, to be shown on a scale.
     Number(f64),
-    /// A colour as it is.
-    Colour([u8; 3]),
+    /// Values that have a colour of their own.
+    Values([f64; 3], [u8; 3]),
+}
+
+impl Measure {
+    /// The values for a file; `None` where nothing is hit.
+    pub(crate) fn values(self) -> Option<[f64; 3]> {
+        match self {
+            Self::Nothing => None,
+            Self::Number(x) => Some([x; 3]),
+            Self::Values(values, _) => Some(values),
+        }
+    }
+}
+
+/// A number on the scale of its channel: bounds by their powers of ten. An exact hit has no length,
+/// and counts as a very small one.
+fn on_scale(channel: Channel, x: f64) -> f64 {
+    if channel == Channel::Bound { elementary::log10(x.max(1e-20)) } else { x }
 }
 
 /// The numbers at the two ends of a scale.
@@ -109,7 +122,7 @@ impl Scale {
     /// they are no numbers.
     pub(crate) fn of(channel: Channel, measures: &[Measure]) -> Option<Self> {
         let number = |m: &Measure| match m {
-            Measure::Number(x) if x.is_finite() => Some(*x),
+            Measure::Number(x) => Some(on_scale(channel, *x)).filter(|x| x.is_finite()),
             _ => None,
         };
         let mut numbers: Vec<f64> = measures.iter().filter_map(number).collect();
@@ -128,9 +141,10 @@ impl Scale {
     pub(crate) fn colour(this: Option<Self>, channel: Channel, measure: Measure) -> [u8; 3] {
         match measure {
             Measure::Nothing => NOTHING,
-            Measure::Colour(colour) => colour,
+            Measure::Values(_, colour) => colour,
             Measure::Number(x) => {
-                let part = this.map_or(0.0, |s| (x - s.low) / (s.high - s.low).max(f64::MIN_POSITIVE));
+                let at = on_scale(channel, x);
+                let part = this.map_or(0.0, |s| (at - s.low) / (s.high - s.low).max(f64::MIN_POSITIVE));
                 match channel {
                     Channel::Depth => grey(part),
                     Channel::Inside if x == 0.0 => NOTHING,
@@ -158,9 +172,9 @@ mod tests {
         let measure = |channel: Channel| channel.measure(&geometry, &ray);
         assert_eq!(measure(Channel::Depth), Measure::Number(4.0));
         assert_eq!(measure(Channel::Inside), Measure::Number(2.0));
-        assert_eq!(measure(Channel::Object), Measure::Colour(distinct(0)));
-        assert_eq!(measure(Channel::Normal), Measure::Colour([128, 128, 0]));
-        assert!(matches!(measure(Channel::Bound), Measure::Number(x) if x < -12.0));
+        assert_eq!(measure(Channel::Object), Measure::Values([0.0; 3], distinct(0)));
+        assert_eq!(measure(Channel::Normal), Measure::Values([0.0, 0.0, -1.0], [128, 128, 0]));
+        assert!(matches!(measure(Channel::Bound), Measure::Number(x) if x < 1e-12));
         assert!(matches!(measure(Channel::Steps), Measure::Number(x) if x >= 2.0));
         let away = Ray::new(Point3::ORIGIN, Vec3::new(0.0, 0.0, -1.0));
         assert_eq!(Channel::Depth.measure(&geometry, &away), Measure::Nothing);
@@ -173,6 +187,10 @@ mod tests {
         measures.push(Measure::Nothing);
         let scale = Scale::of(Channel::Depth, &measures).unwrap();
         assert!(scale.high < 300.0);
-        assert_eq!(Scale::of(Channel::Normal, &[Measure::Colour([0; 3])]), None);
+        assert_eq!(Scale::of(Channel::Normal, &[Measure::Values([0.0; 3], [0; 3])]), None);
+        assert_eq!(
+            Scale::of(Channel::Bound, &[Measure::Number(1e-9)]),
+            Some(Scale { low: -9.0, high: -9.0 })
+        );
     }
 }

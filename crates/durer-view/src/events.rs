@@ -69,9 +69,8 @@ impl Events {
         // The size must be known before tiles come.
         if self.known.news.is_some() {
             let mut tiles = Vec::new();
-            shared.canvas.news(&mut self.known.tiles, ENOUGH, &mut tiles);
+            let generation = shared.canvas.news(&mut self.known.tiles, ENOUGH, &mut tiles);
             if !tiles.is_empty() {
-                let generation = shared.generation;
                 drop(shared);
                 return Some(format!("event: tiles\ndata: {generation} {}\n\n", STANDARD.encode(tiles)));
             }

@@ -125,6 +125,9 @@ fn rays(stage: &Stage, lowered: &Lowered, tree: &RayTree, encoding: Encoding) ->
             RayKind::TotallyReflected => "totally reflected",
             RayKind::Reflected => "reflected",
         };
+        // What is left of the surface's light without that of the lights, up to rounding.
+        let scattered = ray.shadows.iter().fold(Rgb::BLACK, |sum, s| sum + s.arrived);
+        let own = (ray.light + scattered * -1.0).map(|x| if x.abs() < 1e-14 { 0.0 } else { x });
         let shadows = ray.shadows.iter().map(|s| {
             json!({
                 "light": s.light, "target": point(s.target),
@@ -140,7 +143,7 @@ fn rays(stage: &Stage, lowered: &Lowered, tree: &RayTree, encoding: Encoding) ->
                 "line": source::line(stage, source::place(&stage.scene, lowered, object, primitive)),
             })),
             "factor": [ray.factor.r, ray.factor.g, ray.factor.b],
-            "light": colour(ray.light, encoding), "total": colour(ray.total, encoding),
+            "own": colour(own, encoding), "total": colour(ray.total, encoding),
             "shadows": shadows.collect::<Vec<_>>(),
         })
     };

@@ -167,13 +167,23 @@ impl Painting<'_> {
         if shared.generation != self.work.generation {
             return;
         }
-        if let Shown::Colours(colours) = shown {
-            for (&(x, y), &colour) in pixels.iter().zip(colours) {
-                shared.film.set(x, y, colour);
+        match shown {
+            Shown::Colours(colours) => {
+                for (&(x, y), &colour) in pixels.iter().zip(colours) {
+                    shared.film.set(x, y, colour);
+                }
+            }
+            // Where nothing is hit the film stays clear.
+            Shown::Measures(measures) => {
+                for (&(x, y), measure) in pixels.iter().zip(measures) {
+                    if let Some([r, g, b]) = measure.values() {
+                        shared.film.set(x, y, Rgb::new(r, g, b));
+                    }
+                }
             }
         }
         shared.canvas.put(pixels, &bytes);
-        shared.canvas.mark(region, step);
+        shared.canvas.mark(region, step, self.work.generation);
         shared.wake();
     }
 

@@ -179,7 +179,9 @@ impl Rig {
         let vectors =
             [("location", c.location.to_vec()), ("direction", c.direction), ("right", c.right), ("up", c.up)];
         for (name, v) in vectors {
-            let _ = writeln!(text, "  {name} <{}, {}, {}>", v.x, v.y, v.z);
+            // Without negative zeros.
+            let [x, y, z] = v.to_array().map(|c| if c == 0.0 { 0.0 } else { c });
+            let _ = writeln!(text, "  {name} <{x}, {y}, {z}>");
         }
         text.push('}');
         text

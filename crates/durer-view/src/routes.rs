@@ -159,7 +159,9 @@ async fn picture(server: &Arc<Server>, path: &str) -> Answer {
     let made = computed(server, move |server| {
         let shared = server.session.shared();
         let (generation, _, is_last) = shared.done;
-        if !is_last || generation != shared.generation || shared.channel != Channel::Picture {
+        // As a PNG only the picture is written: a view is coloured by the page.
+        let is_shown = ending == "exr" || shared.channel == Channel::Picture;
+        if !is_last || generation != shared.generation || !is_shown {
             return None;
         }
         let film = shared.film.clone();

@@ -8,7 +8,7 @@ use crate::channel::{Channel, Scale};
 use crate::load::{SceneFile, Stage};
 use crate::rig::{Move, Rig};
 use durer_math::{Point3, Ray};
-use durer_render::film::{Depth, Film};
+use durer_render::film::{Depth, Encoding, Film};
 use durer_render::{AntiAliasing, World};
 use durer_scene::Camera;
 use serde_json::{Value, json};
@@ -176,8 +176,6 @@ impl Session {
         shared.error = None;
         shared.warnings.clone_from(&stage.warnings);
         shared.reads += 1;
-        let (width, height) = self.file.size();
-        shared.film = Film::new(width, height, stage.world.encoding(), Depth::Numbers);
         *current = stage;
         self.restart(&mut shared);
     }
@@ -198,9 +196,15 @@ impl Session {
         }
         drop(shared);
         let mut stage = self.stage.write().unwrap_or_else(PoisonError::into_inner);
-        let shared = self.shared();
+        let mut shared = self.shared();
         self.cancel.store(false, Ordering::Relaxed);
         let camera = shared.rig.camera;
+        if shared.channel != Channel::Picture {
+            // Measurements are written as they are, and pixels that hit nothing are clear.
+            shared.new_film(self.file.size(), Encoding::Linear);
+        } else if shared.film.encoding() != stage.world.encoding() || !shared.film.is_complete() {
+            shared.new_film(self.file.size(), stage.world.encoding());
+        }
         let work = Work { generation: shared.generation, channel: shared.channel, aa: shared.aa };
         drop(shared);
         // A rig refuses moves that would make a camera that cannot be built.
@@ -239,6 +243,10 @@ pub(crate) struct Work {
 }
 
 impl Shared {
+    fn new_film(&mut self, (width, height): (u32, u32), encoding: Encoding) {
+        self.film = Film::new(width, height, encoding, Depth::Numbers);
+    }
+
     /// Informs browsers of a change.
     pub(crate) fn announce(&mut self) {
         self.news += 1;

@@ -9,8 +9,8 @@ let state = null;         // the last state of the server
 let chosen = null;        // the pixel that is marked
 let latest = 0;           // the newest generation that this page asked for
 
-// What tests measure: when each generation was asked for, and when its first pixels and its passes came.
-const timings = window.durerTimings = { asked: {}, first: {}, pass: {} };
+// What tests measure: when each generation was asked for, when its first pixels came, and when each of its passes was on the screen.
+const timings = window.durerTimings = { asked: {}, tiles: {}, pass: {} };
 
 // ---- from the server --------------------------------------------------------------------------
 
@@ -47,10 +47,15 @@ function show(next) {
   const { generation, pass, last, ms } = next.painted;
   const current = generation === next.generation;
   const finished = current && last;
-  for (const id of ["png", "exr"]) $(id).disabled = !(finished && next.channel === "picture");
+  for (const id of ["png", "exr"]) $(id).disabled = !finished;
   if (current) {
     const key = `${generation}/${pass}`;
-    timings.pass[key] ??= performance.now();
+    // The browser shows the pixels with its next frame.
+    if (!(key in timings.pass)) {
+      timings.pass[key] = null;
+      requestAnimationFrame(() => { timings.pass[key] = performance.now(); });
+    }
+    if (generation >= latest) arrived();
   }
   if (next.error) say("the changed scene has an error; this is the last good picture");
   else if (finished) say(`${next.width} x ${next.height}, ${time(ms)}`);
@@ -93,12 +98,7 @@ function paint(message) {
     x1 = Math.max(x1, x + w); y1 = Math.max(y1, y + h);
   }
   context.putImageData(image, 0, 0, x0, y0, x1 - x0, y1 - y0);
-  if (!(generation in timings.first)) {
-    timings.first[generation] = null;
-    // The browser shows the pixels with its next frame.
-    requestAnimationFrame(() => { timings.first[generation] = performance.now(); });
-  }
-  if (generation >= latest) arrived();
+  timings.tiles[generation] ??= performance.now();
 }
 
 const time = ms => ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
@@ -278,11 +278,9 @@ function mark(x, y) {
   chosen = { x: inside(Math.min(state.width - 1, x)), y: inside(Math.min(state.height - 1, y)) };
   $("pixel-x").value = chosen.x;
   $("pixel-y").value = chosen.y;
-  const line = (id, ends) => Object.entries(ends).forEach(([name, value]) => $(id).setAttribute(name, value));
-  const cx = (chosen.x + 0.5) / state.width, cy = (chosen.y + 0.5) / state.height;
-  line("marker-h", { x1: 0, x2: 1, y1: cy, y2: cy });
-  line("marker-v", { x1: cx, x2: cx, y1: 0, y2: 1 });
-  $("marker").removeAttribute("hidden");
+  $("marker").style.left = `${(chosen.x + 0.5) / state.width * 100}%`;
+  $("marker").style.top = `${(chosen.y + 0.5) / state.height * 100}%`;
+  $("marker").hidden = false;
 }
 
 let question = 0;
@@ -322,11 +320,17 @@ $("copy").addEventListener("click", async () => {
   }
 });
 for (const ending of ["png", "exr"]) $(ending).addEventListener("click", async () => {
-  const answer = await fetch(`picture.${ending}`);
-  if (!answer.ok) return say(await answer.text());
+  let file;
+  if (ending === "png" && state.channel !== "picture") file = await new Promise(done => canvas.toBlob(done));
+  else {
+    const answer = await fetch(`picture.${ending}`);
+    if (!answer.ok) return say(await answer.text());
+    file = await answer.blob();
+  }
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(await answer.blob());
-  link.download = state.name.replace(/\.[^.]*$/, "") + "." + ending;
+  link.href = URL.createObjectURL(file);
+  const view = state.channel === "picture" ? "" : `-${state.channel}`;
+  link.download = `${state.name.replace(/\.[^.]*$/, "")}${view}.${ending}`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 });

@@ -156,7 +156,7 @@ function tree({ rays, more, colour }) {
     const li = make("li", {}, swatch(ray.total.hex), ` ${ray.kind}`, make("span", { class: "what" }, met), " ", amount(ray.total));
     const below = [];
     if (ray.hit && (children.length > 0 || ray.shadows.length > 0)) {
-      below.push(make("li", {}, swatch(ray.light.hex), make("span", { class: "what" }, " the surface itself "), amount(ray.light)));
+      below.push(make("li", {}, swatch(ray.own.hex), make("span", { class: "what" }, " the surface's own light "), amount(ray.own)));
     }
     for (const s of ray.shadows) {
       const full = s.unblocked.rgb.reduce((a, b) => a + Math.abs(b), 0), got = s.arrived.rgb.reduce((a, b) => a + Math.abs(b), 0);
