@@ -69,7 +69,6 @@ impl Canvas {
     pub(crate) fn news(&self, seen: &mut Seen, enough: usize, message: &mut Vec<u8>) -> u64 {
         let mut generation = 0;
         seen.0.resize(self.tiles.len(), 0);
-        let columns = self.width.div_ceil(TILE);
         for (i, (tile, seen)) in self.tiles.iter().zip(&mut seen.0).enumerate() {
             if tile.version == *seen {
                 continue;
@@ -79,19 +78,36 @@ impl Canvas {
             }
             *seen = tile.version;
             generation = generation.max(tile.generation);
-            let (x0, y0) = (i as u32 % columns * TILE, i as u32 / columns * TILE);
-            let (x1, y1) = ((x0 + TILE).min(self.width), (y0 + TILE).min(self.height));
-            message.extend((x0 as u16).to_le_bytes());
-            message.extend((y0 as u16).to_le_bytes());
-            message.extend([x1 - x0, y1 - y0, tile.step.0, tile.step.1].map(|n| n as u8));
-            for y in (y0..y1).step_by(tile.step.1 as usize) {
-                let row = y as usize * self.width as usize;
-                for x in (x0..x1).step_by(tile.step.0 as usize) {
-                    message.extend(self.rgb[row + x as usize]);
-                }
-            }
+            self.append(i, tile.step, message);
         }
         generation
+    }
+
+    /// Appends all tiles so far, coarsely, for a browser that has seen none. Returns the newest
+    /// generation among them.
+    pub(crate) fn preview(&self, message: &mut Vec<u8>) -> u64 {
+        let mut generation = 0;
+        for (i, tile) in self.tiles.iter().enumerate().filter(|(_, tile)| tile.version > 0) {
+            generation = generation.max(tile.generation);
+            self.append(i, (8, 8), message);
+        }
+        generation
+    }
+
+    /// Appends every `step`-th pixel of a tile.
+    fn append(&self, tile: usize, step: Step, message: &mut Vec<u8>) {
+        let columns = self.width.div_ceil(TILE);
+        let (x0, y0) = (tile as u32 % columns * TILE, tile as u32 / columns * TILE);
+        let (x1, y1) = ((x0 + TILE).min(self.width), (y0 + TILE).min(self.height));
+        message.extend((x0 as u16).to_le_bytes());
+        message.extend((y0 as u16).to_le_bytes());
+        message.extend([x1 - x0, y1 - y0, step.0, step.1].map(|n| n as u8));
+        for y in (y0..y1).step_by(step.1 as usize) {
+            let row = y as usize * self.width as usize;
+            for x in (x0..x1).step_by(step.0 as usize) {
+                message.extend(self.rgb[row + x as usize]);
+            }
+        }
     }
 }
 
@@ -146,6 +162,15 @@ mod tests {
             messages += 1;
         }
         assert_eq!((bytes, messages > 20), (100 * (8 + 3 * 32 * 32), true));
+    }
+
+    #[test]
+    fn a_late_browser_first_sees_everything_coarsely() {
+        let mut canvas = Canvas::new(64, 32);
+        let mut message = Vec::new();
+        assert_eq!((canvas.preview(&mut message), message.len()), (0, 0));
+        canvas.mark(Region { x0: 0, y0: 0, x1: 64, y1: 32 }, (1, 1), 3);
+        assert_eq!((canvas.preview(&mut message), message.len()), (3, 2 * (8 + 16 * 3)));
     }
 
     #[test]

@@ -69,7 +69,13 @@ impl Events {
         // The size must be known before tiles come.
         if self.known.news.is_some() {
             let mut tiles = Vec::new();
-            let generation = shared.canvas.news(&mut self.known.tiles, ENOUGH, &mut tiles);
+            let mut generation = 0;
+            if !std::mem::replace(&mut self.known.preview, true) {
+                generation = shared.canvas.preview(&mut tiles);
+            }
+            if tiles.is_empty() {
+                generation = shared.canvas.news(&mut self.known.tiles, ENOUGH, &mut tiles);
+            }
             if !tiles.is_empty() {
                 drop(shared);
                 return Some(format!("event: tiles\ndata: {generation} {}\n\n", STANDARD.encode(tiles)));

@@ -61,6 +61,8 @@ pub(crate) struct Shared {
 /// What a browser knows.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
+    /// Whether the coarse picture was sent that a new browser gets first.
+    pub(crate) preview: bool,
     pub(crate) tiles: Seen,
     pub(crate) news: Option<u64>,
 }

@@ -7,9 +7,11 @@ const context = canvas.getContext("2d", { alpha: false });
 let image = null;         // the pixels as they are shown
 let state = null;         // the last state of the server
 let chosen = null;        // the pixel that is marked
+const covered = new Set(); // the tiles that have come, until there is a whole picture
 let latest = 0;           // the newest generation that this page asked for
 
-// What tests measure: when each generation was asked for, when its first pixels came, and when each of its passes was on the screen.
+// What tests measure: when each generation was asked for, when its first pixels came,
+// and when each of its passes was on the screen; and when the first whole picture was.
 const timings = window.durerTimings = { asked: {}, tiles: {}, pass: {} };
 
 // ---- from the server --------------------------------------------------------------------------
@@ -82,6 +84,7 @@ function paint(message) {
     const x = byte(i) | byte(i + 1) << 8, y = byte(i + 2) | byte(i + 3) << 8;
     const w = byte(i + 4), h = byte(i + 5), sx = byte(i + 6), sy = byte(i + 7);
     i += 8;
+    if (!("picture" in timings)) covered.add(y << 16 | x);
     for (let v = 0; v < h; v += sy) {
       for (let u = 0; u < w; u += sx) {
         const r = byte(i), g = byte(i + 1), b = byte(i + 2);
@@ -99,6 +102,10 @@ function paint(message) {
   }
   context.putImageData(image, 0, 0, x0, y0, x1 - x0, y1 - y0);
   timings.tiles[generation] ??= performance.now();
+  if (covered.size === Math.ceil(canvas.width / 32) * Math.ceil(canvas.height / 32) && !("picture" in timings)) {
+    timings.picture = null;
+    requestAnimationFrame(() => { timings.picture = performance.now(); });
+  }
 }
 
 const time = ms => ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
