@@ -18,13 +18,34 @@ const timings = window.durerTimings = { asked: {}, tiles: {}, pass: {} };
 
 function follow() {
   const events = new EventSource("events");
-  events.addEventListener("state", event => show(JSON.parse(event.data)));
-  events.addEventListener("tiles", event => paint(event.data));
+  events.addEventListener("state", event => take(() => show(JSON.parse(event.data))));
+  events.addEventListener("tiles", event => take(() => paint(event.data)));
   events.onerror = () => {
     say("not connected: the program has ended, or the scene is open in too many windows");
     // A refused stream is not tried again by the browser.
     if (events.readyState === EventSource.CLOSED) setTimeout(follow, 2000);
   };
+}
+
+// Messages are taken in order. After a coarse picture the others wait until it is on the screen.
+const messages = [];
+let held = false;
+
+function take(message) {
+  messages.push(message);
+  while (!held && messages.length > 0) messages.shift()();
+}
+
+function hold(shown) {
+  const go = () => {
+    if (!held) return;
+    held = false;
+    while (!held && messages.length > 0) messages.shift()();
+  };
+  held = true;
+  requestAnimationFrame(() => { shown(); setTimeout(go); });
+  // A hidden page has no frames.
+  setTimeout(go, 100);
 }
 
 function show(next) {
@@ -55,7 +76,7 @@ function show(next) {
     // The browser shows the pixels with its next frame.
     if (!(key in timings.pass)) {
       timings.pass[key] = null;
-      requestAnimationFrame(() => { timings.pass[key] = performance.now(); });
+      (pass === 1 ? hold : requestAnimationFrame)(() => { timings.pass[key] = performance.now(); });
     }
     if (generation >= latest) arrived();
   }
@@ -104,7 +125,7 @@ function paint(message) {
   timings.tiles[generation] ??= performance.now();
   if (covered.size === Math.ceil(canvas.width / 32) * Math.ceil(canvas.height / 32) && !("picture" in timings)) {
     timings.picture = null;
-    requestAnimationFrame(() => { timings.picture = performance.now(); });
+    hold(() => { timings.picture = performance.now(); });
   }
 }
 
