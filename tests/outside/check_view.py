@@ -160,6 +160,7 @@ def check_strangers(durer, folder):
             check(server.ask(own + path)[0] == 404, f"{path} is answered")
         for host in ["example.com", f"example.com:{server.port}", "127.0.0.1", f"127.0.0.1:{server.port + 1}", "", f"127.0.0.1.example.com:{server.port}"]:
             check(server.ask(own, headers={"Host": host})[0] in (400, 403), f"the host {host!r} is served")
+        check(server.ask(own[:-1])[0] == 308, "the page without a slash is not found")
         check(server.ask(own, headers={"Origin": "http://example.com"})[0] == 403, "another origin is served")
         check(server.ask(own, headers={"Host": f"localhost:{server.port}"})[0] == 200, "localhost is refused")
         for method in ["PUT", "DELETE", "OPTIONS"]:

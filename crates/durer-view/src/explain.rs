@@ -32,8 +32,10 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
     });
     crossings.sort_by(Hit::order);
     let spans = if has_more { Vec::new() } else { geometry.spans(&ray) };
-    let tracer = PixelTracer::new(&stage.world, session.file.size(), Progress::none());
-    let tree = tracer.ok().and_then(|mut tracer| tracer.ray_tree(pixel));
+    // The only step that may take long: a change of the picture ends it.
+    let stop = Progress::none().cancelled_by(&session.cancel);
+    let tracer = PixelTracer::new(&stage.world, session.file.size(), stop);
+    let tree = tracer.map_err(|e| e.to_string())?.ray_tree(pixel).ok_or("the picture has changed meanwhile")?;
     let encoding = stage.world.encoding();
     let place = |hit: &Hit| source::place(&stage.scene, lowered, hit.object, hit.primitive);
     Ok(json!({
@@ -44,7 +46,7 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
         "crossings": crossings.iter().map(|hit| crossing(stage, hit, &names, place(hit))).collect::<Vec<_>>(),
         "more": has_more,
         "spans": spans.iter().map(span).collect::<Vec<_>>(),
-        "tree": tree.as_ref().map(|tree| rays(stage, lowered, tree, encoding)),
+        "tree": rays(stage, lowered, &tree, encoding),
         "words": words(&explanation),
     }))
 }

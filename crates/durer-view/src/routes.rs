@@ -77,6 +77,14 @@ fn check<'r>(server: &Server, request: &'r Request<Incoming>) -> Result<&'r str,
 
 async fn route(server: &Arc<Server>, pulse: &Arc<Pulse>, path: &str, request: Request<Incoming>) -> Answer {
     match (request.method(), path) {
+        (&Method::GET, "") if !request.uri().path().ends_with('/') => {
+            // The page's files are named from its folder.
+            let mut answer = plain(StatusCode::PERMANENT_REDIRECT, "");
+            if let Ok(folder) = HeaderValue::from_str(&format!("/{}/", server.token)) {
+                answer.headers_mut().insert(header::LOCATION, folder);
+            }
+            answer
+        }
         (&Method::GET, "") => text("text/html; charset=utf-8", PAGE),
         (&Method::GET, "style.css") => text("text/css; charset=utf-8", STYLE),
         (&Method::GET, "app.js") => text("text/javascript; charset=utf-8", SCRIPT),
