@@ -35,7 +35,8 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
     // The only step that may take long: a change of the picture ends it.
     let stop = Progress::none().cancelled_by(&session.cancel);
     let tracer = PixelTracer::new(&stage.world, session.file.size(), stop);
-    let tree = tracer.map_err(|e| e.to_string())?.ray_tree(pixel).ok_or("the picture has changed meanwhile")?;
+    let tree =
+        tracer.map_err(|e| e.to_string())?.ray_tree(pixel).ok_or("the picture has changed meanwhile")?;
     let encoding = stage.world.encoding();
     let place = |hit: &Hit| source::place(&stage.scene, lowered, hit.object, hit.primitive);
     Ok(json!({

@@ -27,8 +27,29 @@ const STYLE: &str = include_str!("page/style.css");
 const SCRIPT: &str = include_str!("page/app.js");
 const PANEL: &str = include_str!("page/panel.js");
 
-/// The page loads nothing but its own files, and no other page may show it in a frame.
-const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; style-src 'self'; frame-ancestors 'none'; base-uri 'none'";
+/// The page loads nothing but the answers of this server, and no other page may show it in a frame.
+const POLICY: &str =
+    "default-src 'none'; connect-src 'self'; img-src data: blob:; frame-ancestors 'none'; base-uri 'none'";
+
+/// The page with its style and scripts in one answer, so that it is shown sooner. The browser runs
+/// what bears the number that this answer alone has.
+fn page() -> Answer {
+    let Ok(nonce) = crate::server::secret() else {
+        return plain(StatusCode::INTERNAL_SERVER_ERROR, "no random numbers are at hand");
+    };
+    let style = format!("<style nonce=\"{nonce}\">\n{STYLE}</style>");
+    let script = |text: &str| format!("<script nonce=\"{nonce}\">\n{text}</script>");
+    let page = PAGE
+        .replace("<link rel=\"stylesheet\" href=\"style.css\">", &style)
+        .replace("<script src=\"panel.js\"></script>", &script(PANEL))
+        .replace("<script src=\"app.js\"></script>", &script(SCRIPT));
+    let mut answer = typed("text/html; charset=utf-8", Full::new(Bytes::from(page)).boxed());
+    let policy = format!("{POLICY}; style-src 'nonce-{nonce}'; script-src 'nonce-{nonce}'");
+    if let Ok(policy) = HeaderValue::from_str(&policy) {
+        answer.headers_mut().insert(header::CONTENT_SECURITY_POLICY, policy);
+    }
+    answer
+}
 
 /// Answers a request.
 pub(crate) async fn answer(server: &Arc<Server>, pulse: &Arc<Pulse>, request: Request<Incoming>) -> Answer {
@@ -46,7 +67,7 @@ pub(crate) async fn answer(server: &Arc<Server>, pulse: &Arc<Pulse>, request: Re
         (header::REFERRER_POLICY, "no-referrer"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
     ] {
-        headers.insert(name, HeaderValue::from_static(value));
+        headers.entry(name).or_insert(HeaderValue::from_static(value));
     }
     answer
 }
@@ -85,10 +106,7 @@ async fn route(server: &Arc<Server>, pulse: &Arc<Pulse>, path: &str, request: Re
             }
             answer
         }
-        (&Method::GET, "") => text("text/html; charset=utf-8", PAGE),
-        (&Method::GET, "style.css") => text("text/css; charset=utf-8", STYLE),
-        (&Method::GET, "app.js") => text("text/javascript; charset=utf-8", SCRIPT),
-        (&Method::GET, "panel.js") => text("text/javascript; charset=utf-8", PANEL),
+        (&Method::GET, "") => page(),
         (&Method::GET, "events") => match Events::join(&server.session, pulse, &server.beats) {
             Some(events) => typed("text/event-stream", events.boxed()),
             None => plain(StatusCode::SERVICE_UNAVAILABLE, "the scene is shown in too many windows already"),
@@ -213,10 +231,6 @@ fn typed(kind: &'static str, body: BoxBody<Bytes, Infallible>) -> Answer {
     let mut answer = Response::new(body);
     answer.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(kind));
     answer
-}
-
-fn text(kind: &'static str, text: &'static str) -> Answer {
-    typed(kind, Full::new(Bytes::from_static(text.as_bytes())).boxed())
 }
 
 fn data(value: &Value) -> Answer {

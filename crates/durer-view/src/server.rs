@@ -40,7 +40,7 @@ pub(crate) struct Server {
 }
 
 /// A secret that cannot be guessed: 128 random bits.
-fn token() -> Result<String, ViewError> {
+pub(crate) fn secret() -> Result<String, ViewError> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|e| ViewError::Server(std::io::Error::other(e.to_string())))?;
     Ok(bytes.iter().map(|b| format!("{b:02x}")).collect())
@@ -51,7 +51,7 @@ pub(crate) fn serve(session: Arc<Session>, port: u16, ready: impl FnOnce(&str)) 
     /// As for the renderers' threads: kernels that are compiled without optimisation have large
     /// frames. Only the part that is used takes memory.
     const STACK: usize = 64 << 20;
-    let token = token()?;
+    let token = secret()?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .max_blocking_threads(2 * MOST_QUERIES)

@@ -10,7 +10,6 @@ use crate::rig::{Move, Rig};
 use durer_math::{Point3, Ray};
 use durer_render::film::{Depth, Encoding, Film};
 use durer_render::{AntiAliasing, World};
-use durer_scene::Camera;
 use serde_json::{Value, json};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
@@ -311,7 +310,7 @@ fn aa_name(aa: AntiAliasing) -> String {
 /// The scene's camera. It turns about the surface in the middle of the picture, or about the middle
 /// of the scene if there is nothing.
 fn first_rig(stage: &Stage) -> Rig {
-    let camera = stage.scene.camera.unwrap_or_else(Camera::default);
+    let camera = stage.scene.camera.unwrap_or_default();
     let geometry = stage.world.geometry();
     let ray = Ray::new(camera.location, camera.direction);
     let bounds = geometry.bounds();

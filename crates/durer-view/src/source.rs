@@ -58,7 +58,9 @@ impl Search {
         let place = object.place.or(around);
         match &object.shape {
             Shape::Union(parts) | Shape::Csg(_, parts) => {
-                parts.iter().for_each(|part| self.walk(part, place))
+                for part in parts {
+                    self.walk(part, place);
+                }
             }
             Shape::Mesh(mesh) => self.take(mesh.faces.len() as u64, place),
             _ => self.take(1, place),

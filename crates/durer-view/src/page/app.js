@@ -1,5 +1,5 @@
 // The page of `durer view`: the picture, the camera and the views. The panel of a pixel is in panel.js.
-import { showPixel, showFailure } from "./panel.js";
+"use strict";
 
 const $ = id => document.getElementById(id);
 const canvas = $("canvas"), picture = $("picture");

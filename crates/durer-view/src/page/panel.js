@@ -1,4 +1,6 @@
-// The panel of a pixel: what its ray meets, in words, numbers and a drawing.
+// The panel of a pixel: what its ray meets, in words, numbers and a drawing. The rest of the page uses showPixel and showFailure.
+"use strict";
+const { showPixel, showFailure } = (() => {
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -28,11 +30,11 @@ const vector = v => `<${v.map(number).join(", ")}>`;
 const shortly = v => `<${v.map(short).join(", ")}>`;
 const WAYS = { "-1": "entering", "0": "grazing", "1": "leaving" };
 
-export function showFailure(box, message) {
+function showFailure(box, message) {
   box.replaceChildren(make("pre", { class: "error", role: "alert" }, message));
 }
 
-export function showPixel(box, answer) {
+function showPixel(box, answer) {
   const parts = [headline(answer)];
   if (answer.source) parts.push(make("h2", {}, `${answer.source.file}, line ${answer.source.line}`), source(answer.source));
   if (answer.hit) parts.push(make("h2", {}, "First hit"), facts(answer));
@@ -173,3 +175,6 @@ function tree({ rays, more, colour }) {
   if (more) box.append(make("p", { class: "hint" }, "There are more rays than are shown."));
   return box;
 }
+
+return { showPixel, showFailure };
+})();
