@@ -98,4 +98,23 @@ mod tests {
         assert_eq!([0, 1, 2, 3].map(start), [Some(20), Some(30), Some(40), Some(10)]);
         assert_eq!(place(&scene, &lowered, 1, 0), None);
     }
+
+    #[test]
+    fn the_word_of_a_place_is_shown_in_its_line() {
+        let path = std::env::temp_dir().join(format!("durer-view-source-{}.pov", std::process::id()));
+        let text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\nunion {\n  sphere { 0, 1 }\n  box { -1, 1 translate 5*x }\n}\n";
+        std::fs::write(&path, text).unwrap();
+        let stage = crate::SceneFile::new(&path, durer_pov::ReadOptions::default()).load().unwrap();
+        std::fs::remove_file(&path).unwrap();
+        let lowered = stage.queries().unwrap();
+        let place = place(&stage.scene, lowered, 0, 1);
+        let shown = excerpt(&stage, place);
+        assert_eq!((&shown["line"], &shown["column"], &shown["length"]), (&json!(5), &json!(3), &json!(3)));
+        assert_eq!(
+            shown["lines"][(5 - shown["first"].as_u64().unwrap()) as usize],
+            "  box { -1, 1 translate 5*x }"
+        );
+        assert_eq!((word(&stage, place).as_deref(), line(&stage, place)), (Some("box"), Some(5)));
+        assert_eq!(excerpt(&stage, None), Value::Null);
+    }
 }
