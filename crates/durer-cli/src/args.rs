@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Read a scene, build it, and report counts, bounds, memory and warnings.
     Check(CheckArgs),
+    /// Show a scene in the browser: turn it, and click a pixel to see what its ray met.
+    View(ViewArgs),
 }
 
 /// How to read a scene.
@@ -154,6 +156,26 @@ pub(crate) struct ExplainArgs {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ViewArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    #[command(flatten)]
+    pub(crate) size: SizeArgs,
+    /// How many threads render. [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Anti-aliasing of the finished picture, as for `render`; the page can change it.
+    #[arg(long, value_name = "HOW", default_value = "off", value_parser = anti_aliasing)]
+    pub(crate) aa: AntiAliasing,
+    /// The port to listen on. [default: any free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub(crate) port: u16,
+    /// Opens the page in the browser.
+    #[arg(long)]
+    pub(crate) open: bool,
 }
 
 /// `N` numbers with commas between them.

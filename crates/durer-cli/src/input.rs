@@ -22,26 +22,10 @@ pub(crate) enum Loaded {
 
 /// Reads the scene; its messages go to stderr.
 pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
-    Isa::requested().map_err(|e| Failure::Usage(e.to_string()))?;
+    let options = read_options(args, (width, height))?;
     if Format::of(&args.scene).is_some() {
         return load_mesh(&args.scene, (width, height));
     }
-    check_ending(&args.scene)?;
-    let mut limits = Limits::default();
-    for (name, value) in &args.limit {
-        if !limits.set(&name.replace('-', "_"), *value) {
-            let known = Limits::NAMES.join(", ");
-            return Err(Failure::Usage(format!("--limit {name}: the limits are {known}")));
-        }
-    }
-    let options = ReadOptions {
-        library_paths: args.library.clone(),
-        declares: args.declare.clone(),
-        clock: args.clock,
-        image_width: width,
-        image_height: height,
-        limits,
-    };
     // Scenes end the lines of their `#debug` messages themselves, or forget to. Other messages
     // start on a new line.
     let is_open = std::sync::atomic::AtomicBool::new(false);
@@ -65,6 +49,29 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
     let read = durer::pov::read_with(&args.scene, &options, listener);
     end_line();
     read.map(|read| Loaded::Pov(Box::new(read))).map_err(|e| Failure::Input(e.to_string()))
+}
+
+/// Checks the name of the scene, and returns how to read it.
+pub(crate) fn read_options(args: &SceneArgs, (width, height): (u32, u32)) -> Result<ReadOptions, Failure> {
+    Isa::requested().map_err(|e| Failure::Usage(e.to_string()))?;
+    if Format::of(&args.scene).is_none() {
+        check_ending(&args.scene)?;
+    }
+    let mut limits = Limits::default();
+    for (name, value) in &args.limit {
+        if !limits.set(&name.replace('-', "_"), *value) {
+            let known = Limits::NAMES.join(", ");
+            return Err(Failure::Usage(format!("--limit {name}: the limits are {known}")));
+        }
+    }
+    Ok(ReadOptions {
+        library_paths: args.library.clone(),
+        declares: args.declare.clone(),
+        clock: args.clock,
+        image_width: width,
+        image_height: height,
+        limits,
+    })
 }
 
 fn load_mesh(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure> {

@@ -10,6 +10,7 @@ mod input;
 mod output;
 mod render;
 mod trace;
+mod view;
 
 use crate::args::{Cli, Command};
 use clap::Parser;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         Command::Trace(args) => trace::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::View(args) => view::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

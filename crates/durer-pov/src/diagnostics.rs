@@ -200,7 +200,7 @@ impl fmt::Display for Excerpt {
 }
 
 /// The number of bytes of the token at the start of `text` (one line), for the mark under it.
-fn lexeme_length(text: &str) -> usize {
+pub(crate) fn lexeme_length(text: &str) -> usize {
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut chars = text.char_indices();
     let Some((_, first)) = chars.next() else { return 0 };

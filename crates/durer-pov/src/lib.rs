@@ -60,4 +60,4 @@ mod volume;
 pub use crate::diagnostics::{ErrorKind, PovError};
 pub use crate::limits::Limits;
 pub use crate::messages::{Message, MessageKind};
-pub use crate::read::{Read, ReadOptions, Sources, read, read_with};
+pub use crate::read::{Located, Read, ReadOptions, Sources, read, read_with};

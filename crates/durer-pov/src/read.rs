@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use crate::camera::Camera;
-use crate::diagnostics::{Error, ErrorKind, Place, PovError, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, PovError, Result, lexeme_length};
 use crate::keywords::Keyword;
 use crate::lexer::{Directive, NO_BLOCK};
 use crate::limits::{self, Limits};
@@ -65,7 +65,38 @@ pub struct Sources {
     main: PathBuf,
 }
 
+/// A place in the text of a scene, for display.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Located<'a> {
+    /// The file.
+    pub path: &'a Path,
+    /// The line, counted from 1.
+    pub line: usize,
+    /// The column, counted from 1 in characters.
+    pub column: usize,
+    /// The number of characters of the word there.
+    pub length: usize,
+    /// The text of the whole file.
+    pub text: &'a str,
+}
+
 impl Sources {
+    /// The files that were read, the scene's own among them.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|file| file.path.as_path())
+    }
+
+    /// Where a place is; `None` if it is in none of these files.
+    pub fn locate(&self, place: durer_scene::Place) -> Option<Located<'_>> {
+        let source = self.files.get(place.file as usize)?;
+        let start = place.start as usize;
+        let (line, column) = source.line_and_column(start);
+        let rest = source.text.get(start..)?;
+        let rest = rest.lines().next().unwrap_or_default();
+        let length = rest[..lexeme_length(rest)].chars().count();
+        Some(Located { path: &source.path, line, column, length, text: &source.text })
+    }
+
     /// A message about `place`, in the same form as all others.
     pub fn error(&self, place: Option<durer_scene::Place>, text: impl Into<String>) -> PovError {
         let place = place.map(|p| Place { file: p.file, start: p.start });

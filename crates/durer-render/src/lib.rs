@@ -34,6 +34,7 @@
 pub mod camera;
 pub mod film;
 mod integrator;
+mod interactive;
 mod lanes;
 mod light;
 mod material;
@@ -49,6 +50,8 @@ mod texture;
 mod vector;
 mod world;
 
+pub use crate::integrator::{RayKind, RayTree, ShadowRay, TracedRay};
+pub use crate::interactive::PixelTracer;
 pub use crate::progress::{Progress, Status};
 pub use crate::render::{RenderError, Rendered, render};
 pub use crate::settings::{AntiAliasing, Region, RenderSettings};

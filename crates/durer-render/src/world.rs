@@ -95,10 +95,7 @@ impl World {
             looks.push(Look { paint, medium: look.medium, double_illuminate, inside });
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
-        let standing = match &camera {
-            Some(Camera::Perspective(camera)) => lowered.media_at(camera.origin()),
-            _ => scene.camera.as_ref().and_then(|camera| lowered.media_in(&camera.standpoints())),
-        };
+        let standing = standing(&lowered, scene.camera.as_ref(), camera.as_ref());
         let background = scene.background.0;
         let lights = scene.lights.iter().filter_map(RenderLight::new);
         Ok(Self {
@@ -131,6 +128,24 @@ impl World {
         self.camera.as_ref()
     }
 
+    /// Replaces the camera. Nothing else is built again.
+    ///
+    /// # Errors
+    ///
+    /// Returns a [`CameraError`] if the camera cannot be built; the world then keeps its own.
+    pub fn set_camera(&mut self, camera: &durer_scene::Camera) -> Result<(), CameraError> {
+        let built = Camera::new(camera)?;
+        self.standing = standing(&self.lowered, Some(camera), Some(&built));
+        self.camera_end = Some(RayEnd::camera(&self.lowered.geometry, built.start_size()));
+        self.camera = Some(built);
+        Ok(())
+    }
+
+    /// How the colour values of its pictures relate to light.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
     /// Warnings about the scene. It is rendered nevertheless.
     pub fn warnings(&self) -> &[(Option<Place>, String)] {
         &self.lowered.warnings
@@ -152,6 +167,18 @@ impl World {
     /// Appends the media in which a camera ray starts.
     pub(crate) fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         self.lowered.media_of(ray, media);
+    }
+}
+
+/// The media in which all of the camera's rays start, if these are certainly the same for all.
+fn standing(
+    lowered: &Lowered,
+    camera: Option<&durer_scene::Camera>,
+    built: Option<&Camera>,
+) -> Option<Vec<u32>> {
+    match built {
+        Some(Camera::Perspective(camera)) => lowered.media_at(camera.origin()),
+        _ => camera.and_then(|camera| lowered.media_in(&camera.standpoints())),
     }
 }
 

@@ -110,7 +110,7 @@ impl Encoding {
 /// A table that finds the byte of an 8-bit file by comparison. For each byte it holds the least
 /// colour value that is written as that byte.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Bytes {
+pub struct Bytes {
     /// The last entry is above every value.
     least: [f64; 257],
     /// The byte at the lower end of each cell, where the search starts.
@@ -130,7 +130,8 @@ const CELLS: usize = 4096;
 const ROUNDER: f64 = (1_u64 << 52) as f64 / CELLS as f64;
 
 impl Bytes {
-    pub(super) fn new(encoding: Encoding) -> Self {
+    /// The table for an encoding.
+    pub fn new(encoding: Encoding) -> Self {
         let mut least = [f64::INFINITY; 257];
         least[0] = 0.0;
         for k in 1..=255_u8 {
@@ -175,7 +176,7 @@ impl Bytes {
     }
 
     /// Converts colours to three bytes each.
-    pub(super) fn of_colours(&self, colours: &[Rgb], bytes: &mut [[u8; 3]]) {
+    pub fn of_colours(&self, colours: &[Rgb], bytes: &mut [[u8; 3]]) {
         let (eights, rest) = colours.as_chunks::<LANES>();
         let (byte_eights, byte_rest) = bytes.as_chunks_mut::<LANES>();
         Isa::detect().run_in_lanes(

@@ -3,10 +3,9 @@
 mod gamma;
 mod save;
 
-pub use self::gamma::Encoding;
+pub use self::gamma::{Bytes, Encoding};
 pub use self::save::{Bits, FileFormat, SaveError};
 
-use self::gamma::Bytes;
 use crate::settings::Region;
 use durer_math::kernels::in_large_pages;
 use durer_scene::Rgb;
@@ -114,6 +113,14 @@ impl Film {
         // the loop.
         let all = |part: &[bool]| part.iter().fold(true, |all, &rendered| all & rendered);
         self.rendered.chunks(256).all(all)
+    }
+
+    /// Stores the colour of the pixel in column `x` and row `y`; outside the picture nothing
+    /// happens.
+    pub fn set(&mut self, x: u32, y: u32, colour: Rgb) {
+        if x < self.width && y < self.height {
+            self.put(Region { x0: x, y0: y, x1: x + 1, y1: y + 1 }, &[colour]);
+        }
     }
 
     /// Stores the pixels of `region`, row by row. There may be fewer pixels than the region has.

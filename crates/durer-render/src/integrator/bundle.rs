@@ -46,6 +46,10 @@ pub(super) struct BundleState<'w> {
     pub(super) mirror: Option<&'w Mirror>,
     /// The media that the rays are in; the one entered last is at the end.
     pub(super) media: Vec<u32>,
+    /// In a record, the number of the ray; before it is traced, that of the ray that led to it.
+    pub(super) node: u32,
+    /// The kind of ray, the second part of its bundle's key.
+    pub(super) kind: u32,
 }
 
 /// Rays with everything needed to trace them.
@@ -88,7 +92,16 @@ impl Paths8 {
 impl<'w> Bundle<'w> {
     /// Makes an empty bundle. The camera's rays are outside of all media.
     pub(super) fn new() -> Self {
-        let standing = BundleState { level: 1, depth: 0, mask: 0, draws: 0, mirror: None, media: Vec::new() };
+        let standing = BundleState {
+            level: 1,
+            depth: 0,
+            mask: 0,
+            draws: 0,
+            mirror: None,
+            media: Vec::new(),
+            node: 0,
+            kind: 0,
+        };
         let loose = Loose { group: 0, filled: LANES };
         Self { rays: Vec::new(), paths: Vec::new(), standing, loose }
     }

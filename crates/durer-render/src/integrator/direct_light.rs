@@ -1,6 +1,7 @@
 //! Direct light: the light of the scene's lights on surfaces.
 
 use super::layers::{Coats, Lit};
+use super::record::Record;
 use super::shading_point::Spot;
 use super::shadow::Shadows;
 use crate::lanes::Rgb8;
@@ -10,7 +11,7 @@ use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::dot;
 use crate::world::World;
-use durer_math::{F8, Isa, M8};
+use durer_math::{F8, Isa, M8, Point3};
 
 /// Computes the direct light on shading points.
 #[derive(Default)]
@@ -18,6 +19,8 @@ pub(super) struct Lamps<'w> {
     shadows: Shadows<'w>,
     /// How the current light falls on each group of points.
     falling: Vec<Falling>,
+    /// The light and its target before anything is in the way; kept for records only.
+    unblocked: Vec<(Rgb8, Point3<F8>)>,
 }
 
 /// How a light falls on eight points.
@@ -32,18 +35,19 @@ struct Falling {
 
 impl<'w> Lamps<'w> {
     /// Adds the light of all lights, scattered by the layers, to the spots. If `double` is set,
-    /// light from behind counts like light from the front. The rays came in `media`.
+    /// light from behind counts like light from the front. The rays came in `media`;
+    /// `node` is their number in the record.
     pub(super) fn light(
         &mut self,
         (world, isa): (&'w World, Isa),
         (coats, double): (&Coats<'_>, bool),
-        media: &[u32],
+        (media, node): (&[u32], u32),
         spots: &mut [Spot],
-        stop: &Progress<'_>,
+        (stop, record): (&Progress<'_>, &mut Option<Box<Record>>),
         counts: &mut RayCounts,
     ) {
         let behind = double || coats.finishes.iter().any(|f| f.lit_from_behind());
-        for lamp in &world.lamps {
+        for (number, lamp) in world.lamps.iter().enumerate() {
             if stop.is_cancelled() {
                 return;
             }
@@ -57,7 +61,15 @@ impl<'w> Lamps<'w> {
                 }
             }
             self.aim(isa, lamp, spots);
+            if record.is_some() {
+                self.unblocked.clear();
+                let places = self.shadows.places(spots.len());
+                self.unblocked.extend(places.map(|to| (*to.light, *to.target)));
+            }
             self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts);
+            if let Some(record) = record {
+                record.light(node, number, spots, &self.unblocked, self.shadows.light());
+            }
             isa.run_in_lanes(
                 #[inline(always)]
                 || {

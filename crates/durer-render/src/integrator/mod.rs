@@ -5,9 +5,11 @@ mod direct_light;
 mod group;
 mod layers;
 mod media;
+mod record;
 mod secondary;
 mod shading_point;
 mod shadow;
 mod whitted;
 
+pub use self::record::{RayKind, RayTree, ShadowRay, TracedRay};
 pub(crate) use self::whitted::Whitted;

@@ -26,8 +26,8 @@ pub(super) struct Onward<'w> {
 /// The number of a surface's stack of layers, and the kind of ray: through the surface, totally
 /// reflected, or reflected by a numbered layer.
 type Order = (u32, u32);
-const THROUGH: u32 = 0;
-const TOTAL: u32 = 1;
+pub(super) const THROUGH: u32 = 0;
+pub(super) const TOTAL: u32 = 1;
 const FIRST_MIRROR: u32 = 2;
 
 /// Surfaces with the same look that are hit by rays of one bundle.
@@ -77,6 +77,7 @@ impl<'w> Onward<'w> {
             let mut bundle = self.empty();
             let s = &mut bundle.standing;
             (s.level, s.depth, s.mask, s.draws, s.mirror) = (level, depth, mask, draws, mirror);
+            (s.node, s.kind) = (standing.node, order.1);
             s.media.clear();
             s.media.extend_from_slice(media);
             self.bundles.push((order, bundle));

@@ -19,6 +19,7 @@ use super::direct_light::Lamps;
 use super::group::{Piece, cut, sort};
 use super::layers::{Coats, draws};
 use super::media::Interface;
+use super::record::{RayTree, Record};
 use super::secondary::{Onward, Part};
 use super::shading_point::{Spot, Spots, face};
 use crate::camera::Camera;
@@ -58,13 +59,16 @@ pub(crate) struct Whitted<'w> {
     pub(crate) counts: RayCounts,
     /// Tells whether the caller has cancelled the work.
     stop: Progress<'w>,
+    /// The rays so far, if they are to be explained.
+    record: Option<Box<Record>>,
 }
 
 enum Task<'w> {
     /// Traces the rays of a bundle and shades their hits.
     Follow(Bundle<'w>),
     /// Adds what was seen in a mirror that changes colours. The sums from `first` on belong to it.
-    Show { mirror: &'w Mirror, first: usize, to: Vec<(u32, Rgb)> },
+    /// `node` is the mirrored ray's number in a record.
+    Show { mirror: &'w Mirror, first: usize, to: Vec<(u32, Rgb)>, node: u32 },
 }
 
 impl<'w> Whitted<'w> {
@@ -84,6 +88,7 @@ impl<'w> Whitted<'w> {
             onward: Onward::default(),
             counts: RayCounts::default(),
             stop: Progress::none(),
+            record: None,
         }
     }
 
@@ -91,6 +96,17 @@ impl<'w> Whitted<'w> {
     #[must_use]
     pub(crate) fn stopped_by(self, stop: &Progress<'w>) -> Self {
         Self { stop: *stop, ..self }
+    }
+
+    /// Traces the ray through one place of a picture of the given size, and records all rays that
+    /// it leads to. Returns `None` if the work was cancelled.
+    pub(crate) fn record(&mut self, camera: &Camera, picture: (u32, u32), place: Place) -> Option<RayTree> {
+        self.record = Some(Box::default());
+        let mut colours = Vec::new();
+        let done = self.look(camera, picture, &[place], &mut colours);
+        let record = self.record.take();
+        done?;
+        Some(record?.finish(*colours.first()?))
     }
 
     /// Computes the colours at some places of a picture of the given size, in their order. Returns
@@ -123,10 +139,13 @@ impl<'w> Whitted<'w> {
                 }
                 match task {
                     Task::Follow(bundle) => self.begin(bundle),
-                    Task::Show { mirror, first, to } => {
+                    Task::Show { mirror, first, to, node } => {
                         for (i, (slot, factor)) in to.into_iter().enumerate() {
                             let seen = mirror.shown(self.sums[first + i]);
                             self.sums[slot as usize] += seen * factor;
+                            if let Some(record) = &mut self.record {
+                                record.show(node, seen * factor);
+                            }
                         }
                         self.sums.truncate(first);
                     }
@@ -166,11 +185,20 @@ impl<'w> Whitted<'w> {
                 }
             },
         );
-        let first =
-            BundleState { level: 1, depth: 0, mask: mask::CAMERA, draws: 0, mirror: None, media: Vec::new() };
+        let first = BundleState {
+            level: 1,
+            depth: 0,
+            mask: mask::CAMERA,
+            draws: 0,
+            mirror: None,
+            media: Vec::new(),
+            node: 0,
+            kind: 0,
+        };
         match self.standing(&all.rays) {
             Some(media) => {
                 all.standing = BundleState { media, ..first };
+                self.begin_record(&mut all);
                 self.follow(&all);
             }
             None => self.start_apart(&all, &first),
@@ -211,7 +239,8 @@ impl<'w> Whitted<'w> {
                 left &= !same;
             }
         }
-        for bundle in apart {
+        for mut bundle in apart {
+            self.begin_record(&mut bundle);
             self.follow(&bundle);
             self.onward.give_back(bundle);
         }
@@ -223,6 +252,7 @@ impl<'w> Whitted<'w> {
             self.onward.give_back(bundle);
             return;
         }
+        self.begin_record(&mut bundle);
         if let Some(mirror) = bundle.standing.mirror.take() {
             // The reflected colours are first summed up separately.
             let first = self.sums.len();
@@ -235,11 +265,18 @@ impl<'w> Whitted<'w> {
                 paths.factor = Rgb8::WHITE;
             }
             self.sums.resize(first + to.len(), Rgb::BLACK);
-            self.tasks.push(Task::Show { mirror, first, to });
+            self.tasks.push(Task::Show { mirror, first, to, node: bundle.standing.node });
         }
         self.follow(&bundle);
         self.tasks.extend(self.onward.take().map(Task::Follow));
         self.onward.give_back(bundle);
+    }
+
+    /// Numbers the ray of a bundle in the record, if there is one.
+    fn begin_record(&mut self, bundle: &mut Bundle<'w>) {
+        if let Some(record) = &mut self.record {
+            bundle.standing.node = record.begin(bundle);
+        }
     }
 
     /// Adds the colours that the rays of a bundle find, and puts their secondary rays into
@@ -280,6 +317,9 @@ impl<'w> Whitted<'w> {
         see(world.geometry(), rays, standing.mask, &mut self.hits, &mut self.scratch);
         if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
             camera.see_beyond(world.geometry(), standing.mask, rays, &mut self.hits);
+        }
+        if let Some(record) = &mut self.record {
+            record.see(standing.node, rays, &self.hits, paths, world.background);
         }
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
         self.isa.run_in_lanes(
@@ -385,7 +425,11 @@ impl<'w> Whitted<'w> {
         self.coats.lay((world, isa), layers, &part.border, standing.draws, spots);
         if !self.coats.finishes.is_empty() {
             let how = (&self.coats, part.look.double_illuminate);
-            self.lamps.light((world, isa), how, &standing.media, spots, &self.stop, &mut self.counts);
+            let (state, watch) = ((&standing.media[..], standing.node), (&self.stop, &mut self.record));
+            self.lamps.light((world, isa), how, state, spots, watch, &mut self.counts);
+        }
+        if let Some(record) = &mut self.record {
+            record.shade(standing.node, spots);
         }
         let sums = &mut self.sums;
         isa.run_in_lanes(

@@ -1,0 +1,209 @@
+//! A record of all rays that a picture's ray leads to, for explanations.
+//!
+//! Recording follows one camera ray alone. Every bundle then holds one ray, so a bundle is a node
+//! of the tree of rays.
+
+use super::bundle::{Bundle, Paths8};
+use super::secondary::{THROUGH, TOTAL};
+use super::shading_point::Spot;
+use crate::lanes::Rgb8;
+use durer_geometry::{Hits8, Rays8};
+use durer_math::{Point3, Ray};
+use durer_scene::Rgb;
+
+/// How a ray came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// It is the camera's.
+    Camera,
+    /// It goes on behind a clear surface, bent or not.
+    Transmitted,
+    /// It could not pass a clear surface.
+    TotallyReflected,
+    /// A mirror reflects it.
+    Reflected,
+}
+
+/// A ray of a [`RayTree`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracedRay {
+    /// The index of the ray that led to it; less than its own.
+    pub parent: Option<usize>,
+    /// How it came about.
+    pub kind: RayKind,
+    /// The recursion level; the camera's rays have level 1.
+    pub level: u32,
+    /// The ray.
+    pub ray: Ray,
+    /// The first surface that it hits: object, primitive, parameter and point.
+    pub hit: Option<(u32, u32, f64, Point3)>,
+    /// The factor of what it sees in the pixel's colour. Behind a mirror that changes colours it
+    /// counts from that mirror.
+    pub factor: Rgb,
+    /// What the surface's own and reflected light, or the background, adds to the pixel.
+    pub light: Rgb,
+    /// What the ray adds to the pixel with all the rays that it leads to.
+    pub total: Rgb,
+    /// The shadow rays from its hit, one for each light that the surface scatters.
+    pub shadows: Vec<ShadowRay>,
+    /// What a mirror that changes colours shows of the ray.
+    shown: Option<Rgb>,
+}
+
+/// A ray from a surface to a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadowRay {
+    /// The number of the light, counting those that are not black.
+    pub light: usize,
+    /// Where the ray ends.
+    pub target: Point3,
+    /// What the light would add to the pixel if nothing were in the way.
+    pub unblocked: Rgb,
+    /// What it adds.
+    pub arrived: Rgb,
+}
+
+/// All rays that a camera ray leads to, in the order in which they are traced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayTree {
+    /// The rays; the first is the camera's.
+    pub rays: Vec<TracedRay>,
+    /// Whether there are more than are kept.
+    pub has_more: bool,
+    /// The colour of the pixel.
+    pub colour: Rgb,
+}
+
+/// The most rays that are kept.
+const MOST_RAYS: usize = 1000;
+
+/// The node of a ray that is not kept.
+pub(super) const NO_NODE: u32 = u32::MAX;
+
+#[derive(Debug, Default)]
+pub(super) struct Record {
+    rays: Vec<TracedRay>,
+    has_more: bool,
+}
+
+impl Record {
+    /// Adds the ray of a bundle, whose state still names the ray before it. Returns its number.
+    pub(super) fn begin(&mut self, bundle: &Bundle<'_>) -> u32 {
+        let state = &bundle.standing;
+        let live = bundle.rays.iter().zip(&bundle.paths).find(|(rays, _)| rays.live.any());
+        let Some((rays, paths)) = live else { return NO_NODE };
+        let Some(i) = rays.live.first_set() else { return NO_NODE };
+        if self.rays.len() == MOST_RAYS {
+            self.has_more = true;
+            return NO_NODE;
+        }
+        let kind = match (state.depth, state.kind) {
+            (0, _) => RayKind::Camera,
+            (_, THROUGH) => RayKind::Transmitted,
+            (_, TOTAL) => RayKind::TotallyReflected,
+            _ => RayKind::Reflected,
+        };
+        self.rays.push(TracedRay {
+            parent: (state.depth > 0).then_some(state.node as usize),
+            kind,
+            level: state.level,
+            ray: rays.lane(i),
+            hit: None,
+            factor: paths.factor.lane(i),
+            light: Rgb::BLACK,
+            total: Rgb::BLACK,
+            shadows: Vec::new(),
+            shown: None,
+        });
+        (self.rays.len() - 1) as u32
+    }
+
+    fn node(&mut self, node: u32) -> Option<&mut TracedRay> {
+        self.rays.get_mut(node as usize)
+    }
+
+    /// Records what the node's ray hits, or that it sees the background.
+    pub(super) fn see(
+        &mut self,
+        node: u32,
+        rays: &[Rays8],
+        hits: &[Hits8],
+        paths: &[Paths8],
+        background: Rgb,
+    ) {
+        let Some(node) = self.node(node) else { return };
+        for ((rays, hits), paths) in rays.iter().zip(hits).zip(paths) {
+            for i in rays.live.lanes() {
+                if hits.hit.lane(i) {
+                    let point = hits.p.to_vec().lane(i).to_point();
+                    node.hit = Some((hits.object[i], hits.primitive[i], hits.t.0[i], point));
+                } else {
+                    node.light += background * paths.factor.lane(i);
+                }
+            }
+        }
+    }
+
+    /// Adds the light that a stack of layers gives.
+    pub(super) fn shade(&mut self, node: u32, spots: &[Spot]) {
+        let Some(node) = self.node(node) else { return };
+        for spot in spots {
+            for i in spot.live.lanes() {
+                node.light += spot.sum.lane(i) * spot.paths.factor.lane(i);
+            }
+        }
+    }
+
+    /// Adds the light of one light, before and after what is in its way.
+    pub(super) fn light(
+        &mut self,
+        node: u32,
+        light: usize,
+        spots: &[Spot],
+        before: &[(Rgb8, Point3<durer_math::F8>)],
+        after: &[Rgb8],
+    ) {
+        let Some(node) = self.node(node) else { return };
+        for ((spot, (unblocked, target)), arrived) in spots.iter().zip(before).zip(after) {
+            for i in spot.live.lanes() {
+                let factor = spot.paths.factor.lane(i);
+                let unblocked = unblocked.lane(i) * factor;
+                if unblocked == Rgb::BLACK {
+                    continue;
+                }
+                let arrived = arrived.lane(i) * factor;
+                match node.shadows.iter_mut().find(|s| s.light == light) {
+                    Some(known) => {
+                        known.unblocked += unblocked;
+                        known.arrived += arrived;
+                    }
+                    None => {
+                        let target = target.to_vec().lane(i).to_point();
+                        node.shadows.push(ShadowRay { light, target, unblocked, arrived });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Records what a mirror that changes colours shows of a ray.
+    pub(super) fn show(&mut self, node: u32, shown: Rgb) {
+        if let Some(node) = self.node(node) {
+            node.shown = Some(shown);
+        }
+    }
+
+    /// The finished tree.
+    pub(super) fn finish(mut self, colour: Rgb) -> RayTree {
+        // Every ray comes after the one that led to it.
+        for i in (0..self.rays.len()).rev() {
+            let ray = &mut self.rays[i];
+            let total = ray.shown.unwrap_or(ray.total + ray.light);
+            ray.total = total;
+            if let Some(parent) = ray.parent.and_then(|p| self.rays.get_mut(p)) {
+                parent.total += total;
+            }
+        }
+        RayTree { rays: self.rays, has_more: self.has_more, colour }
+    }
+}
