@@ -254,6 +254,10 @@ impl Parser<'_> {
                 self.next()?;
                 Ok(Value::TextureMap(self.texture_map_block()?))
             }
+            Keyword::SkySphere => {
+                self.next()?;
+                Ok(Value::SkySphere(self.sky_sphere_block()?))
+            }
             Keyword::Camera => {
                 self.next()?;
                 self.camera_value()

@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod atmosphere;
 mod branches;
 mod camera;
 mod colour;

@@ -180,6 +180,10 @@ impl Parser<'_> {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
                 Item::Word(Keyword::Background) => self.background()?,
+                Item::Word(Keyword::SkySphere) => {
+                    self.put_back(lexeme);
+                    self.sky_sphere_statement()?;
+                }
                 Item::Word(Keyword::GlobalSettings) => self.global_settings()?,
                 Item::Word(keyword) if begins_object(*keyword) => self.object_statement(lexeme)?,
                 Item::Value(Value::Object(_)) | Item::Unknown(_) => self.object_statement(lexeme)?,
@@ -197,7 +201,7 @@ impl Parser<'_> {
                 self.notice(start, "the scene has no camera: the default one is used");
             }
         }
-        Ok(self.finished())
+        self.finished()
     }
 
     fn object_statement(&mut self, first: crate::parser::Lexeme) -> Result<()> {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use durer_math::{Affine, Point3, Vec3};
 use durer_scene as scene;
 
+use crate::atmosphere::SkySphere;
 use crate::camera::{Camera, Projection};
 use crate::colour::Colour;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
@@ -27,6 +28,7 @@ use crate::transform::{Matrix, length};
 pub(crate) struct Output {
     pub(crate) camera: Option<Camera>,
     pub(crate) background: Option<Colour>,
+    pub(crate) sky: Option<(Rc<SkySphere>, Place)>,
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
     lights: Vec<scene::Light>,
@@ -292,7 +294,7 @@ impl Parser<'_> {
     }
 
     /// The whole scene.
-    pub(crate) fn finished(&mut self) -> scene::Scene {
+    pub(crate) fn finished(&mut self) -> Result<scene::Scene> {
         let output = std::mem::take(&mut self.scene);
         let version = self.language.shading_version();
         let gamma = match self.language.gamma {
@@ -302,7 +304,8 @@ impl Parser<'_> {
             None => scene::AssumedGamma::Power(1.0),
         };
         let globals = output.globals;
-        scene::Scene {
+        let sky = output.sky.map(|(sky, at)| sky_sphere(&sky, at)).transpose()?;
+        Ok(scene::Scene {
             objects: output.objects,
             lights: output.lights,
             camera: output.camera.map(|camera| scene::Camera {
@@ -318,6 +321,7 @@ impl Parser<'_> {
             background: output.background.map_or_else(scene::Background::default, |color| {
                 scene::Background(scene::Colour::from_terms(color))
             }),
+            sky,
             settings: scene::Settings {
                 assumed_gamma: gamma,
                 version,
@@ -325,7 +329,7 @@ impl Parser<'_> {
                 adc_bailout: globals.adc_bailout,
                 ambient_light: rgb(globals.ambient_light),
             },
-        }
+        })
     }
 }
 
@@ -573,6 +577,11 @@ fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
     };
     made.placement = placement(&pattern.modifiers.place, at)?;
     Ok(made)
+}
+
+fn sky_sphere(own: &SkySphere, at: Place) -> Result<scene::SkySphere> {
+    let pigments = own.pigments.iter().map(|own| pigment(own, at)).collect::<Result<_>>()?;
+    Ok(scene::SkySphere { pigments, emission: rgb(own.emission) })
 }
 
 /// The colour between two colours, with the weight `k` for the second.

@@ -155,7 +155,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint32le
             | Sint8
             | Size
-            | SkySphere
             | Slope
             | SlopeMap
             | Solid

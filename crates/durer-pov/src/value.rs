@@ -172,6 +172,7 @@ pub(crate) enum Value {
     TextureMap(Rc<crate::texture::Map<crate::texture::Texture>>),
     Interior(Rc<crate::texture::Interior>),
     Material(Rc<crate::texture::Material>),
+    SkySphere(Rc<crate::atmosphere::SkySphere>),
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
@@ -204,6 +205,7 @@ impl Value {
             Self::TextureMap(_) => "a texture map",
             Self::Interior(_) => "an interior",
             Self::Material(_) => "a material",
+            Self::SkySphere(_) => "a sky sphere",
             Self::Camera(_) => "a camera",
             Self::Object(_) => "an object",
             Self::Macro(_) => "a macro",
@@ -226,6 +228,7 @@ impl Value {
             }
             Self::Function(called) => called.formula.ops().len() * 24,
             Self::VectorFunction(function) => function.steps() * 24,
+            Self::SkySphere(sky) => sky.pigments.len() * layer,
             Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }

@@ -44,6 +44,7 @@ mod ray_end;
 mod render;
 mod sampler;
 mod settings;
+mod sky;
 mod stats;
 mod texture;
 mod vector;

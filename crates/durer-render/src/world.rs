@@ -4,13 +4,14 @@ use std::collections::HashMap;
 
 use durer_geometry::Geometry;
 use durer_math::{Aabb, AffineError, Ray};
-use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
+use durer_scene::{LowerError, Lowered, Place, Placement, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
 use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
+use crate::sky::Sky;
 use crate::texture::RenderTexture;
 
 /// A scene prepared for rendering: built once, then shared by all threads.
@@ -26,7 +27,7 @@ pub struct World {
     /// The media in which all of the camera's rays start, if there is a camera and these are
     /// certainly the same for all rays.
     standing: Option<Vec<u32>>,
-    pub(crate) background: Rgb,
+    pub(crate) sky: Sky,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
     /// Whether the opacity of a layer uses its filter times its greatest channel.
@@ -99,7 +100,6 @@ impl World {
             Some(Camera::Perspective(camera)) => lowered.media_at(camera.origin()),
             _ => scene.camera.as_ref().and_then(|camera| lowered.media_in(&camera.standpoints())),
         };
-        let background = scene.background.0;
         let lights = scene.lights.iter().filter_map(RenderLight::new);
         Ok(Self {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
@@ -111,8 +111,7 @@ impl World {
             camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
-            // Nothing lies behind the background, so its transparent part is black.
-            background: background.rgb * (1.0 - background.transmit),
+            sky: Sky::new(scene, settings.version < NEW_OPACITY)?,
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
             filter_by_colour: settings.version < NEW_OPACITY,

@@ -42,7 +42,7 @@ pub use crate::lower::{Look, LookId, LowerError, LowerErrorKind, Lowered};
 pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
 pub use crate::placement::Placement;
-pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
+pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,
     Spline, Sweep,

@@ -285,11 +285,11 @@ impl<'w> Whitted<'w> {
         self.isa.run_in_lanes(
             #[inline(always)]
             || {
-                let background = Rgb8::splat(world.background);
                 for (group, hits) in hits.iter().enumerate() {
                     let missed = rays[group].live & !hits.hit;
                     if missed.any() {
-                        add(sums, &paths[group], background, missed);
+                        let seen = world.sky.seen(rays[group].direction, missed);
+                        add(sums, &paths[group], seen, missed);
                     }
                     cut(world, group, &rays[group], hits, pieces);
                 }

@@ -185,7 +185,7 @@ impl Blend<Colour> {
 }
 
 impl RenderPigment {
-    fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
+    pub(crate) fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
         let joined = || pigment.placement.affine().then(around);
         Ok(match &pigment.body {
             PigmentBody::Solid(colour) => Self::Solid(*colour),
