@@ -248,11 +248,11 @@ impl Parser<'_> {
             }
             Keyword::PigmentMap => {
                 self.next()?;
-                Ok(Value::PigmentMap(self.pigment_map_block()?))
+                Ok(Value::PigmentMap(self.pigment_map_block(false)?))
             }
             Keyword::TextureMap => {
                 self.next()?;
-                Ok(Value::TextureMap(self.texture_map_block()?))
+                Ok(Value::TextureMap(self.texture_map_block(false)?))
             }
             Keyword::SkySphere => {
                 self.next()?;

@@ -52,6 +52,7 @@ mod source;
 mod spline;
 mod strings;
 mod texture;
+mod texture_builder;
 mod transform;
 mod unsupported;
 mod value;

@@ -12,8 +12,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AaThreshold
             | Absorption
             | Adaptive
-            | Agate
-            | AgateTurb
             | All
             | Alpha
             | Altitude
@@ -25,58 +23,42 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AreaIllumination
             | AreaLight
             | Autostop
-            | Average
             | BicubicPatch
-            | BlackHole
             | BlurSamples
             | Bmp
             | Bokeh
-            | Boxed
-            | Bozo
             | Brightness
             | BumpMap
             | BumpSize
-            | Bumps
-            | Cells
             | Circular
             | Collect
             | Composite
             | Confidence
-            | Control0
-            | Control1
             | Coords
             | Count
-            | Crackle
-            | Cylindrical
             | Density
             | DensityFile
             | DensityMap
-            | Dents
             | Df3
-            | DistExp
             | Distance
             | Eccentricity
             | ErrorBound
             | ExpandThresholds
             | Exr
-            | Exterior
             | Extinction
             | Facets
             | FalloffAngle
             | Fisheye
             | Flatness
-            | Flip
             | FocalPoint
             | Fog
             | FogAlt
             | FogOffset
             | FogType
-            | Form
             | Gamma
             | Gather
             | Gif
             | GlobalLights
-            | Granite
             | GrayThreshold
             | Hdr
             | Iff
@@ -89,22 +71,15 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Irid
             | Jitter
             | Jpeg
-            | Julia
-            | Leopard
             | LightGroup
             | LoadFile
             | LowErrorFactor
-            | Magnet
-            | MajorRadius
-            | Mandel
             | MapType
-            | Marble
             | MaterialMap
             | MaxSample
             | MaximumReuse
             | Media
             | Method
-            | Metric
             | MinimumReuse
             | NearestCount
             | NoBumpScale
@@ -112,20 +87,15 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NormalMap
             | NumberOfSides
             | NumberOfTiles
-            | Offset
             | Omnimax
             | Once
-            | Onion
             | Orient
-            | Orientation
             | Panoramic
             | Parametric
             | PassThrough
             | Pattern
             | Pavement
             | Pgm
-            | PigmentPattern
-            | Planar
             | Png
             | Pot
             | Ppm
@@ -136,16 +106,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Prod
             | ProjectedThrough
             | Pwr
-            | Quilted
-            | Radial
             | Radiosity
             | Rainbow
             | Ratio
             | Reciprocal
             | RecursionLimit
             | Refraction
-            | Repeat
-            | Ripples
             | Samples
             | SaveFile
             | Scattering
@@ -157,13 +123,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Size
             | Slope
             | SlopeMap
-            | Solid
             | Spacing
-            | Spherical
-            | Spiral1
-            | Spiral2
-            | Spotted
-            | Square
             | Subsurface
             | Sum
             | Target
@@ -174,9 +134,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tile2
             | Tiles
             | Tiling
-            | Toroidal
             | Translucency
-            | Triangular
             | Ttf
             | TurbDepth
             | Type
@@ -192,11 +150,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | VSteps
             | Variance
             | Vturbulence
-            | Warp
-            | Waves
             | Width
-            | Wood
-            | Wrinkles
             | Xyz
     )
 }

@@ -29,6 +29,8 @@ pub mod mask;
 mod object;
 mod pattern;
 mod placement;
+mod point_warp;
+mod ramp;
 mod scene;
 mod shape;
 mod texture;
@@ -40,8 +42,12 @@ pub use crate::interior::Interior;
 pub use crate::light::{Fade, Light, LightKind};
 pub use crate::lower::{Look, LookId, LowerError, LowerErrorKind, Lowered};
 pub use crate::object::{Flags, Object, Place};
-pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
+pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
+pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
+pub use crate::ramp::{
+    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples,
+};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,

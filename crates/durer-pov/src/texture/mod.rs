@@ -5,6 +5,8 @@ mod interior;
 mod maps;
 mod pattern;
 mod pigment;
+mod ramps;
+mod warps;
 
 use std::rc::Rc;
 
@@ -125,7 +127,7 @@ impl Parser<'_> {
             }
             if let Texture::Patterned { pattern, map } = &mut texture
                 && (self.pattern_modifier(Some(&mut pattern.kind), &mut pattern.modifiers)?
-                    || self.texture_map_item(map)?)
+                    || self.texture_map_item(pattern.kind == PatternKind::Average, map)?)
             {
                 continue;
             }

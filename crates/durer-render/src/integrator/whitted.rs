@@ -357,13 +357,11 @@ impl<'w> Whitted<'w> {
     ) {
         let mut shown = Vec::new();
         for spot in spots {
-            let p = spot.inside.to_vec();
-            let at = |i| if spot.live.lane(i) { blend.at(p.lane(i).to_point()) } else { None };
-            shown.push(core::array::from_fn::<_, LANES, _>(at));
+            shown.push(blend.at_lanes(spot.inside, spot.live));
         }
         let mut some = Spots::default();
         for entry in 0..blend.len() {
-            let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| s.part(entry)));
+            let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| blend.part(s, entry)));
             let mut weighed = spots.to_vec();
             let mut lists = Vec::new();
             for (group, spot) in weighed.iter_mut().enumerate() {
