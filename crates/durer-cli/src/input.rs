@@ -41,6 +41,7 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
         image_width: width,
         image_height: height,
         limits,
+        strict: args.strict,
     };
     // Scenes end the lines of their `#debug` messages themselves, or forget to. Other messages
     // start on a new line.

@@ -39,6 +39,7 @@ mod limits;
 mod macros;
 mod messages;
 mod noise_pattern;
+mod normal_builder;
 mod object;
 mod parser;
 mod pattern_function;

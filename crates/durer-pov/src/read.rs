@@ -30,6 +30,9 @@ pub struct ReadOptions {
     pub image_height: u32,
     /// The limits of the reader.
     pub limits: Limits,
+    /// Whether a scene is refused that uses a feature which would be left out of the picture:
+    /// `radiosity`, `photons`, `media`, `subsurface`.
+    pub strict: bool,
 }
 
 impl Default for ReadOptions {
@@ -41,6 +44,7 @@ impl Default for ReadOptions {
             image_width: 800,
             image_height: 600,
             limits: Limits::default(),
+            strict: false,
         }
     }
 }
@@ -179,7 +183,12 @@ impl Parser<'_> {
                 Item::Word(keyword) if let Some(directive) = bare_directive(*keyword) => {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
+                Item::Word(Keyword::Media) => self.leave_out(Keyword::Media, place)?,
                 Item::Word(Keyword::Background) => self.background()?,
+                Item::Word(Keyword::Fog) => {
+                    self.put_back(lexeme);
+                    self.fog_statement()?;
+                }
                 Item::Word(Keyword::SkySphere) => {
                     self.put_back(lexeme);
                     self.sky_sphere_statement()?;

@@ -26,6 +26,7 @@ use crate::transform::{Matrix, length};
 pub(crate) struct Output {
     pub(crate) camera: Option<Camera>,
     pub(crate) background: Option<Colour>,
+    pub(crate) fogs: Vec<scene::Fog>,
     pub(crate) sky: Option<(Rc<SkySphere>, Place)>,
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
@@ -142,6 +143,13 @@ impl Parser<'_> {
             point_at: point(moved.point(light.point_at)),
             parallel: light.parallel,
             shadowless: light.beam == Beam::Shadowless,
+            area: light.area.filter(|area| area.points.iter().all(|n| *n > 0)).map(|area| scene::AreaLight {
+                sides: area.sides.map(|side| vector(moved.direction(side))),
+                points: area.points,
+                circular: area.circular,
+                orient: area.orient,
+                adaptive: area.adaptive,
+            }),
             fade: fades.then_some(scene::Fade { distance: light.fade_distance, power: light.fade_power }),
         });
         let Some(shown) = &light.looks_like else { return Ok(()) };
@@ -320,6 +328,7 @@ impl Parser<'_> {
                 scene::Background(scene::Colour::from_terms(color))
             }),
             sky,
+            fogs: output.fogs,
             settings: scene::Settings {
                 assumed_gamma: gamma,
                 version,

@@ -7,6 +7,7 @@ use durer_scene as scene;
 use crate::colour::Colour;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
+use crate::normal_builder::normal;
 use crate::pattern_function::changed_number;
 use crate::scene_builder::{finish, placement, vector};
 use crate::texture::{Body, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave};
@@ -37,7 +38,14 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
 }
 
 fn layer_of(layer: &Layer, at: Place) -> Result<scene::Layer> {
-    Ok(scene::Layer { pigment: pigment(&layer.pigment, at)?, finish: Arc::new(finish(&layer.finish)) })
+    Ok(scene::Layer {
+        pigment: pigment(&layer.pigment, at)?,
+        finish: Arc::new(finish(&layer.finish)),
+        normal: match &layer.normal {
+            Some(own) => normal(own, at)?.map(Arc::new),
+            None => None,
+        },
+    })
 }
 
 pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
@@ -74,14 +82,14 @@ fn blended(from: Colour, to: Colour, k: f64) -> Colour {
     core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
 }
 
-fn blend_of_patterns(at: Place) -> Box<Error> {
+pub(crate) fn blend_of_patterns(at: Place) -> Box<Error> {
     let text = "not supported yet: a frequency or a wave that blends the patterns or textures of a list";
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
 
 /// A pattern of scene data: `part` converts an entry, `blend` mixes two.
-fn pattern_of<T: Clone, U>(
+pub(crate) fn pattern_of<T: Clone, U>(
     pattern: &Pattern,
     map: &Map<T>,
     at: Place,
@@ -98,7 +106,7 @@ fn pattern_of<T: Clone, U>(
 
 /// The maps of the point behind the pattern's placement, in the order in which they are applied to
 /// the point: the warps of the text from the last to the first, and then turbulence.
-fn warps_of(pattern: &Pattern, at: Place) -> Result<Vec<scene::PointWarp>> {
+pub(crate) fn warps_of(pattern: &Pattern, at: Place) -> Result<Vec<scene::PointWarp>> {
     let modifiers = &pattern.modifiers;
     let mut warps = Vec::new();
     for (before, warp) in modifiers.warps.iter().rev() {

@@ -11,7 +11,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | Adaptive
             | All
             | Alpha
             | Altitude
@@ -21,7 +20,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Append
             | ArcAngle
             | AreaIllumination
-            | AreaLight
             | Autostop
             | BicubicPatch
             | BlurSamples
@@ -29,32 +27,23 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Bokeh
             | Brightness
             | BumpMap
-            | BumpSize
-            | Circular
             | Collect
             | Composite
             | Confidence
-            | Coords
             | Count
             | Density
             | DensityFile
             | DensityMap
             | Df3
-            | Distance
             | Eccentricity
             | ErrorBound
             | ExpandThresholds
             | Exr
             | Extinction
-            | Facets
             | FalloffAngle
             | Fisheye
             | Flatness
             | FocalPoint
-            | Fog
-            | FogAlt
-            | FogOffset
-            | FogType
             | Gamma
             | Gather
             | Gif
@@ -69,7 +58,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Interpolate
             | Intervals
             | Irid
-            | Jitter
             | Jpeg
             | LightGroup
             | LoadFile
@@ -78,18 +66,13 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | MaterialMap
             | MaxSample
             | MaximumReuse
-            | Media
             | Method
             | MinimumReuse
             | NearestCount
-            | NoBumpScale
-            | Normal
-            | NormalMap
             | NumberOfSides
             | NumberOfTiles
             | Omnimax
             | Once
-            | Orient
             | Panoramic
             | Parametric
             | PassThrough
@@ -106,7 +89,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Prod
             | ProjectedThrough
             | Pwr
-            | Radiosity
             | Rainbow
             | Ratio
             | Reciprocal
@@ -122,12 +104,9 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint8
             | Size
             | Slope
-            | SlopeMap
             | Spacing
-            | Subsurface
             | Sum
             | Target
-            | Text
             | Tga
             | Thickness
             | Tiff
@@ -135,8 +114,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tiles
             | Tiling
             | Translucency
-            | Ttf
-            | TurbDepth
             | Type
             | USteps
             | Uint16be

@@ -33,6 +33,7 @@
 
 pub mod camera;
 pub mod film;
+mod fog;
 mod integrator;
 mod lanes;
 mod light;

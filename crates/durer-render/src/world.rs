@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 
 use durer_geometry::Geometry;
-use durer_math::{Aabb, AffineError, Ray};
+use durer_math::{Aabb, Affine, AffineError, Ray};
 use durer_scene::{LowerError, Lowered, Place, Placement, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
+use crate::fog::RenderFog;
 use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
@@ -28,6 +29,7 @@ pub struct World {
     /// certainly the same for all rays.
     standing: Option<Vec<u32>>,
     pub(crate) sky: Sky,
+    pub(crate) fogs: Vec<RenderFog>,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
     /// Whether the opacity of a layer uses its filter times its greatest channel.
@@ -84,6 +86,7 @@ impl World {
                     paints.push(RenderTexture::new(
                         &look.texture,
                         look.frame.affine(),
+                        &Affine::IDENTITY,
                         settings.ambient_light,
                     )?);
                     let number = (paints.len() - 1) as u32;
@@ -111,6 +114,7 @@ impl World {
             camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
+            fogs: scene.fogs.iter().map(RenderFog::new).collect(),
             sky: Sky::new(scene, settings.version < NEW_OPACITY)?,
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
@@ -146,6 +150,15 @@ impl World {
     /// same.
     pub(crate) fn standing(&self, origins: impl FnOnce() -> Aabb) -> Option<Vec<u32>> {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
+    }
+
+    /// All fog around rays in these media.
+    #[inline(always)]
+    pub(crate) fn fogs_in(&self, media: &[u32]) -> &[RenderFog] {
+        if self.fogs.is_empty() || media.iter().any(|&m| !self.lowered.hollow[m as usize]) {
+            return &[];
+        }
+        &self.fogs
     }
 
     /// Appends the media in which a camera ray starts.

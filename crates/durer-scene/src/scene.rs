@@ -1,6 +1,6 @@
 //! The scene as a whole, and its settings.
 
-use crate::{Camera, Colour, Light, Object, Pigment, Rgb};
+use crate::{Camera, Colour, Fog, Light, Object, Pigment, Rgb};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Scene {
     pub background: Background,
     /// What rays without a hit see in front of the background.
     pub sky: Option<SkySphere>,
+    /// All fog.
+    pub fogs: Vec<Fog>,
     /// The scene's own settings.
     pub settings: Settings,
 }

@@ -11,6 +11,7 @@ pub(crate) mod queries;
 mod shapes;
 mod swept;
 mod terrain;
+mod text;
 
 use std::rc::Rc;
 
@@ -271,6 +272,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | HeightField
             | Torus
             | Prism
+            | Text
             | SphereSweep
             | Sor
             | Lathe

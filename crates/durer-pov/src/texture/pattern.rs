@@ -170,7 +170,7 @@ impl Parser<'_> {
     }
 
     /// Gives the pattern the scene's noise generator.
-    pub(super) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
+    pub(crate) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
         let generator = self.language.noise_generator();
         if modifiers.turbulence.generator != generator {
             Rc::make_mut(&mut modifiers.turbulence).generator = generator;

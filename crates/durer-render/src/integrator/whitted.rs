@@ -22,12 +22,14 @@ use super::media::Interface;
 use super::secondary::{Onward, Part};
 use super::shading_point::{Spot, Spots, face};
 use crate::camera::Camera;
+use crate::fog::{RenderFog, Ways, veil};
 use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use crate::progress::Progress;
 use crate::sampler::Place;
 use crate::stats::RayCounts;
 use crate::texture::{Blend, RenderLayer, RenderTexture, Weights};
+use crate::vector::length;
 use crate::world::World;
 use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
@@ -262,6 +264,7 @@ impl<'w> Whitted<'w> {
             let spots = spots.gather(self.isa, part, (rays, paths), &self.hits);
             face(self.isa, spots);
             let world = self.world;
+            self.see_through_fog(world.fogs_in(&standing.media), spots);
             let look = part[0].look(world);
             let border = Interface::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
@@ -281,6 +284,7 @@ impl<'w> Whitted<'w> {
         if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
             camera.see_beyond(world.geometry(), standing.mask, rays, &mut self.hits);
         }
+        let fogs = world.fogs_in(&standing.media);
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
         self.isa.run_in_lanes(
             #[inline(always)]
@@ -288,7 +292,16 @@ impl<'w> Whitted<'w> {
                 for (group, hits) in hits.iter().enumerate() {
                     let missed = rays[group].live & !hits.hit;
                     if missed.any() {
-                        let seen = world.sky.seen(rays[group].direction, missed);
+                        let mut seen = world.sky.seen(rays[group].direction, missed);
+                        if !fogs.is_empty() {
+                            let Rays8 { origin, direction, .. } = rays[group];
+                            let direction = direction * (F8::ONE / length(direction));
+                            let distance = F8::splat(f64::INFINITY);
+                            let ways = Ways { origin, direction, distance, live: missed };
+                            if let Some(veil) = veil(fogs, &ways) {
+                                seen = seen * veil.passed + veil.added;
+                            }
+                        }
                         add(sums, &paths[group], seen, missed);
                     }
                     cut(world, group, &rays[group], hits, pieces);
@@ -296,6 +309,22 @@ impl<'w> Whitted<'w> {
             },
         );
         sort(&mut self.pieces);
+    }
+
+    /// Adds the light of fog before spots, and dims what follows.
+    fn see_through_fog(&mut self, fogs: &[RenderFog], spots: &mut [Spot]) {
+        if fogs.is_empty() {
+            return;
+        }
+        for spot in spots {
+            let (direction, distance) = (spot.view.eye, spot.distance);
+            let origin = spot.hits.p - direction * distance;
+            let ways = Ways { origin, direction, distance, live: spot.live };
+            if let Some(veil) = veil(fogs, &ways) {
+                add(&mut self.sums, &spot.paths, veil.added, spot.live);
+                spot.paths.factor = spot.paths.factor * veil.passed;
+            }
+        }
     }
 
     /// Shades spots with a texture, in whose space `inside` is given; `stack` counts the surface's

@@ -7,12 +7,14 @@ mod field;
 mod fields;
 mod hexagon;
 mod lookup;
+mod normal;
 mod place;
 mod square;
 mod triangular;
 mod warp;
 mod wave;
 
+pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
 pub(crate) use self::place::Place;
 
@@ -24,6 +26,7 @@ use crate::lanes::{Colour8, Rgb8};
 use crate::material::Finish;
 use cells::{Cutter, Kinds};
 use lookup::Lookup;
+use normal::RenderNormal;
 
 /// The texture of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +44,7 @@ pub(crate) enum RenderTexture {
 pub(crate) struct RenderLayer {
     pub(crate) pigment: RenderPigment,
     pub(crate) finish: Finish,
+    pub(crate) normal: Option<Box<RenderNormal>>,
 }
 
 /// A pigment.
@@ -308,8 +312,13 @@ impl RenderPigment {
 
 impl RenderTexture {
     /// Prepares a texture. Its own placement is combined with `around`, the placement of the space
-    /// in which it is used.
-    pub(crate) fn new(texture: &Texture, around: &Affine, ambient_light: Rgb) -> Result<Self, AffineError> {
+    /// in which it is used; `outer` places that space in the world.
+    pub(crate) fn new(
+        texture: &Texture,
+        around: &Affine,
+        outer: &Affine,
+        ambient_light: Rgb,
+    ) -> Result<Self, AffineError> {
         let joined = || match texture.placement.is_identity() {
             true => Ok(*around),
             false => texture.placement.affine().then(around),
@@ -321,17 +330,23 @@ impl RenderTexture {
                     Ok(RenderLayer {
                         pigment: RenderPigment::new(&layer.pigment, &place)?,
                         finish: Finish::new(&layer.finish, ambient_light),
+                        normal: match &layer.normal {
+                            Some(normal) => Some(Box::new(RenderNormal::new(normal, &place, outer)?)),
+                            None => None,
+                        },
                     })
                 };
                 Self::Layers(layers.iter().map(coat).collect::<Result<_, AffineError>>()?)
             }
-            TextureBody::Pattern(pattern) => Self::Pattern(
-                Place::warped(&joined()?, pattern),
-                Box::new(Blend::new(pattern, |t| Self::new(t, &Affine::IDENTITY, ambient_light))?),
-            ),
+            TextureBody::Pattern(pattern) => {
+                let own = joined()?;
+                let world = own.then(outer)?;
+                let part = |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
+                Self::Pattern(Place::warped(&own, pattern), Box::new(Blend::new(pattern, part)?))
+            }
             TextureBody::Fields(fields) => {
                 let around = joined()?;
-                let paint = |t: &Texture, around: &Affine| Self::new(t, around, ambient_light);
+                let paint = |t: &Texture, around: &Affine| Self::new(t, around, outer, ambient_light);
                 Self::Fields(Box::new(Weights::new(fields, &around, paint)?))
             }
         })
@@ -427,7 +442,7 @@ mod tests {
         pigment.transform(&Affine::scaling(2.0, 2.0, 2.0).unwrap()).unwrap();
         let mut texture = Texture::plain(pigment, durer_scene::Finish::default());
         texture.transform(&Affine::translation(Vec3::new(10.0, 0.0, 0.0)).unwrap()).unwrap();
-        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Layers(coats) = &paint else { unreachable!() };
         let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
             let p = Point3::new(x, 0.5, 0.5);
@@ -473,7 +488,7 @@ mod tests {
         let value = Value::new(Ramp::Gradient(Vec3::X));
         let texture =
             Texture::pattern(Pattern::Map { value, entries: vec![(0.0, one(1.0)), (1.0, one(2.0))] });
-        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
         let shown = blend.at(place.inside(p)).unwrap();

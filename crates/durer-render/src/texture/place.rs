@@ -2,7 +2,7 @@
 
 use super::warp::Warp;
 use durer_math::{Affine, F8, Point3, Vec3};
-use durer_scene::Pattern;
+use durer_scene::{Pattern, PointWarp};
 
 /// The inverse of a placement, for shading.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,14 +44,19 @@ impl Place {
 
     /// The place of a pattern that is placed by `map`, with its warps.
     pub(crate) fn warped<T>(map: &Affine, pattern: &Pattern<T>) -> Self {
-        let mut warps: Vec<Warp> = Vec::new();
-        let mut pattern = pattern;
-        while let Pattern::Warped { warps: own, pattern: inner } = pattern {
-            warps.extend(own.iter().map(Warp::new));
-            pattern = inner;
+        match pattern {
+            Pattern::Warped { warps, .. } => Self::through(map, warps),
+            _ => Self::new(map),
         }
+    }
+
+    /// The place of what is placed by `map` and seen through warps.
+    pub(crate) fn through(map: &Affine, warps: &[PointWarp]) -> Self {
         let place = Self::new(map);
-        if warps.is_empty() { place } else { Self::Warped(Box::new(Warps { place, warps: warps.into() })) }
+        if warps.is_empty() {
+            return place;
+        }
+        Self::Warped(Box::new(Warps { place, warps: warps.iter().map(Warp::new).collect() }))
     }
 
     /// The point of the texture's space that is placed at `p`.

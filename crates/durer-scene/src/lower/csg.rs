@@ -224,7 +224,7 @@ impl Lowering {
             work.is_clear |= is_clear;
             let medium = match context.medium.or(work.medium) {
                 Some(medium) => medium,
-                None if is_clear => *work.medium.insert(self.medium(&Arc::default())),
+                None if is_clear => *work.medium.insert(self.medium(&Arc::default(), false)),
                 None => 0,
             };
             let painted = (texture, frame);

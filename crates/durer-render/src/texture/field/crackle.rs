@@ -76,14 +76,14 @@ impl Points {
         Self { form: crackle.form, metric, fourth: metric.part(crackle.offset), solid: crackle.solid }
     }
 
-    /// The value at a point.
-    pub(super) fn value(&self, p: Point3) -> f64 {
+    /// The sums for the three nearest points, and the cell of the nearest point with the point.
+    fn nearest(&self, p: Point3) -> ([f64; 3], [f64; 3], [f64; 3]) {
         let [x, y, z] = p.to_array();
         let own = [floor(x), floor(y), floor(z)];
         let within = [x - own[0], y - own[1], z - own[2]];
-        // The sums for the three nearest points, and the nearest point.
+        // The sums for the three nearest points, the nearest point and its cell.
         let mut nearest = [f64::INFINITY; 3];
-        let mut point = own;
+        let (mut point, mut cell) = (own, own);
         let mut visit = |step: [i32; 3]| {
             let offset = step.map(f64::from);
             // The nearest that a point in that cell can be.
@@ -105,6 +105,7 @@ impl Points {
             if sum < nearest[0] {
                 nearest = [sum, nearest[0], nearest[1]];
                 point = core::array::from_fn(|axis| own[axis] + at[axis]);
+                cell = core::array::from_fn(|axis| own[axis] + offset[axis]);
             } else if sum < nearest[1] {
                 nearest = [nearest[0], sum, nearest[1]];
             } else if sum < nearest[2] {
@@ -114,6 +115,27 @@ impl Points {
         for &step in &NEAR_FIRST {
             visit(step);
         }
+        (nearest, point, cell)
+    }
+
+    /// Points that are only asked for the nearest.
+    pub(super) fn of_cells() -> Self {
+        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false };
+        Self::new(&crackle)
+    }
+
+    /// A random vector for all points nearest to one of the points, from -1 to 1 along each axis.
+    pub(super) fn vector(&self, p: Point3) -> Vec3 {
+        let (_, _, [x, y, z]) = self.nearest(p);
+        // Other numbers than those of the point.
+        let bits = hash([x + 0.0, y - 4096.0, z + 8192.0]);
+        let part = |k: u32| fraction(bits >> (21 * k)) * 2.0 - 1.0;
+        Vec3::new(part(0), part(1), part(2))
+    }
+
+    /// The value at a point.
+    pub(super) fn value(&self, p: Point3) -> f64 {
+        let (nearest, point, _) = self.nearest(p);
         if self.solid {
             let [x, y, z] = point.map(F8::splat);
             let n = noise::values([&x, &y, &z]).0[0];

@@ -53,11 +53,15 @@ pub(super) fn quilted(p: Point3, bottom: f64, top: f64) -> f64 {
     let half = |x: f64| x - floor(x) - 0.5;
     let (x, y, z) = (half(p.x), half(p.y), half(p.z));
     let r = (x * x + y * y + z * z).sqrt();
-    let rest = 1.0 - r;
-    let curve = 3.0 * r * rest * (rest * bottom + r * top) + r * r * r;
     // 2/(3 sqrt 3)
     const SCALE: f64 = 0.384_900_179_459_750_5;
-    (x.abs() + y.abs() + z.abs()) * curve * SCALE
+    (x.abs() + y.abs() + z.abs()) * quilt_curve(r, bottom, top) * SCALE
+}
+
+/// The curve of a cushion at the distance `r` from its middle.
+pub(super) fn quilt_curve(r: f64, bottom: f64, top: f64) -> f64 {
+    let rest = 1.0 - r;
+    3.0 * r * rest * (rest * bottom + r * top) + r * r * r
 }
 
 #[cfg(test)]

@@ -7,10 +7,12 @@ mod crackle;
 mod formulas;
 mod fractal;
 mod noise;
+mod push;
 mod ripples;
 
 pub(super) use crackle::cell_number;
-pub(super) use noise::Stir;
+pub(crate) use noise::Stir;
+pub(super) use push::Pusher;
 
 use super::RenderPigment;
 use crate::vector::{dot, floor, floor_lanes, unit};

@@ -22,7 +22,7 @@ use durer_math::{F8, M8, Point3, Vec3, elementary, noise};
 use durer_scene::{Grain, GrainKind, Turbulence};
 
 /// The shifts of the noise for the second and the third component of turbulence.
-const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
+pub(super) const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
 
 /// `n`.
 fn plain(p: Vec3<F8>) -> F8 {
@@ -97,7 +97,7 @@ impl Stir {
     }
 
     /// `T`.
-    pub(super) fn scalar(&self, p: Point3<F8>) -> F8 {
+    pub(crate) fn scalar(&self, p: Point3<F8>) -> F8 {
         let mut sum = F8::ZERO;
         for (k, &(weight, scale)) in self.octaves.iter().enumerate() {
             sum += grain(p.to_vec() * F8::splat(scale), self.old, k == 0) * weight;
