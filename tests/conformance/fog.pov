@@ -11,4 +11,4 @@ plane { y, -1 pigment { checker rgb 0.9 rgb <0.2, 0.4, 0.2> } }
   sphere { <I*1.2 - 3, I*0.4 - 0.5, I*3 - 2>, 0.7 pigment { rgb <0.8, 0.2, 0.1> } finish { reflection 0.3 } }
   #declare I = I + 1;
 #end
-sphere { <2, 0, -3>, 0.8 pigment { rgbt 0.9 } interior { ior 1.3 } hollow }
+sphere { <2, 0, -3>, 0.8 pigment { rgbt 0.9 } interior { ior 1.3 } }

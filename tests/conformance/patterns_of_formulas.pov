@@ -49,6 +49,6 @@ Tile(4, 4, pigment { checker rgb 1 rgb <0, 0.4, 0> scale 0.1 warp { black_hole <
 Tile(5, 4, pigment { checker rgb 1 rgb <0, 0.4, 0> scale 0.1 warp { planar <1, 1, -2>, 0.2 } })
 Tile(6, 4, pigment { boxed scale 0.3 warp { repeat 0.6*y flip y } warp { repeat -0.5*x } rotate 20*z color_map { Map } })
 Tile(7, 4, pigment { gradient x frequency 3 phase 0.2 color_map { Map } scale 0.5 rotate 30*z })
-Tile(0, 5, pigment { brick rgb 0.2, rgb <0.7, 0.3, 0.2> scale 0.05 warp { repeat 0.3*y flip y } })
+Tile(0, 5, pigment { brick rgb 0.2, rgb <0.7, 0.3, 0.2> scale 0.061 warp { repeat 0.366*y flip y } })
 Tile(1, 5, pigment { hexagon scale 0.1 warp { repeat 0.25*x } rotate 90*x })
 Tile(2, 5, pigment { leopard color_map { [0 rgb 0][0.3 rgb 1][0.6 rgb x][1 rgb z] } scale 0.05 })

@@ -9,7 +9,7 @@ use durer_math::{Affine, Point3, Vec3};
 use durer_scene as scene;
 
 use crate::atmosphere::SkySphere;
-use crate::camera::{Camera, Projection};
+use crate::camera::Camera;
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Place, Result};
 use crate::light::{Beam, Light};
@@ -315,10 +315,7 @@ impl Parser<'_> {
             objects: output.objects,
             lights: output.lights,
             camera: output.camera.map(|camera| scene::Camera {
-                projection: match camera.projection {
-                    Projection::Perspective => scene::Projection::Perspective,
-                    Projection::Orthographic => scene::Projection::Orthographic,
-                },
+                projection: camera.projection(),
                 location: point(camera.location),
                 direction: vector(camera.direction),
                 right: vector(camera.right),

@@ -41,7 +41,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Exr
             | Extinction
             | FalloffAngle
-            | Fisheye
             | Flatness
             | FocalPoint
             | Gamma
@@ -73,7 +72,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NumberOfTiles
             | Omnimax
             | Once
-            | Panoramic
             | Parametric
             | PassThrough
             | Pattern
@@ -119,7 +117,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Uint16be
             | Uint16le
             | Uint8
-            | UltraWideAngle
             | UseAlpha
             | UseColor
             | UseIndex

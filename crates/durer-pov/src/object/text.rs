@@ -120,7 +120,9 @@ impl Parser<'_> {
         if thickness == 0.0 {
             return Ok(self.nothing("this text has no thickness", thickness_at));
         }
-        let Some(path) = self.library.find(&name) else {
+        // The ending may be left out.
+        let found = self.library.find(&name).or_else(|| self.library.find(&format!("{name}.ttf")));
+        let Some(path) = found else {
             let folders = self.library.listed();
             let text = format!("there is no font \"{name}\"; searched: {folders}");
             return Err(Error::file(Some(at), text));
@@ -165,8 +167,13 @@ impl Parser<'_> {
         let mut parts = Vec::new();
         for letter in text.chars() {
             let id = glyph(face, letter);
-            if let Some(before) = before {
-                pen[0] += kerning(face, before, id) * scale;
+            match before {
+                Some(before) => pen[0] += kerning(face, before, id) * scale,
+                // The first letter itself begins at the origin (a fact of the language).
+                None => {
+                    let left = face.glyph_bounding_box(id).map_or(0, |bounds| bounds.x_min);
+                    pen[0] -= f64::from(left) * scale;
+                }
             }
             let mut outlines = Outlines {
                 scale,

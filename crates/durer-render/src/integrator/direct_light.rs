@@ -92,9 +92,9 @@ impl<'w> Lamps<'w> {
         let (rays, targets) = self.shadows.rays_mut();
         let mut needed: Vec<M8> = rays.iter().map(|rays| rays.live).collect();
         let middles: Vec<Point3<F8>> = targets.to_vec();
-        let mut sums = vec![Rgb8::BLACK; full.len()];
+        // By the weights among all points, and among those looked at first.
+        let mut sums = vec![[Rgb8::BLACK; 2]; full.len()];
         let mut range = vec![(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)); full.len()];
-        let mut shares = vec![F8::splat(area.first as f64); full.len()];
         for number in 0..area.len() {
             if number == area.first {
                 for (i, needed) in needed.iter_mut().enumerate() {
@@ -102,7 +102,6 @@ impl<'w> Lamps<'w> {
                     // The language compares the shadows of corners with this bound.
                     let differ = (full[i].luminance() * 0.1).lt(most - least);
                     *needed &= differ;
-                    shares[i] = needed.select(F8::splat(area.len() as f64), shares[i]);
                 }
                 if !needed.iter().any(|needed| needed.any()) {
                     break;
@@ -123,7 +122,9 @@ impl<'w> Lamps<'w> {
             self.shadows.cast((world, isa), None, media, stop, counts);
             for (i, light) in self.shadows.light().iter().enumerate() {
                 let light = light.kept(needed[i]);
-                sums[i] += light;
+                for (sum, weight) in sums[i].iter_mut().zip(area.weights(number)) {
+                    *sum += light * F8::splat(weight);
+                }
                 let brightness = light.luminance();
                 let (least, most) = &mut range[i];
                 (*least, *most) = (least.min(brightness), most.max(brightness));
@@ -131,7 +132,8 @@ impl<'w> Lamps<'w> {
         }
         let blockable: Vec<M8> = self.falling.iter().map(|falling| falling.blockable).collect();
         for (i, light) in self.shadows.light_mut().iter_mut().enumerate() {
-            let soft = sums[i] * (F8::ONE / shares[i]);
+            let [all, first] = sums[i];
+            let soft = if area.first == area.len() { all } else { all.or(needed[i], first) };
             *light = soft.or(blockable[i] & !full[i].is_black(), full[i]);
         }
     }

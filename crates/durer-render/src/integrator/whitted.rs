@@ -162,7 +162,9 @@ impl<'w> Whitted<'w> {
                     }
                     let (origin, direction) = camera.rays(x, y, picture);
                     let (t_max, source) = (F8::splat(f64::INFINITY), Rays8::NONE.source);
-                    let live = M8::first(places.len());
+                    // Where the picture shows nothing, rays have no direction.
+                    let size = direction.x.abs() + direction.y.abs() + direction.z.abs();
+                    let live = M8::first(places.len()) & (F8::ZERO).lt(size);
                     all.rays.push(Rays8 { origin, direction, t_max, live, source });
                     all.paths.push(paths);
                 }

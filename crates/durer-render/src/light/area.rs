@@ -10,10 +10,19 @@ use durer_scene::AreaLight;
 pub(crate) struct Area {
     sides: [Vec3; 2],
     orient: bool,
-    /// The positions along the sides, from -1/2 to 1/2. Those that are looked at first come first.
-    points: Box<[(f64, f64)]>,
+    /// The points. Those that are looked at first come first.
+    points: Box<[Point]>,
     /// How many are looked at first; the others only where their shadows differ.
     pub(crate) first: usize,
+}
+
+/// A point of an area light.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    /// The position along the sides, from -1/2 to 1/2.
+    at: (f64, f64),
+    /// Its weight among all points, and among those that are looked at first.
+    weights: [f64; 2],
 }
 
 impl Area {
@@ -23,25 +32,27 @@ impl Area {
         if columns * rows <= 1 {
             return None;
         }
-        let mut points = Vec::with_capacity((columns * rows) as usize);
-        let mut rest = Vec::new();
-        for row in 0..rows {
-            for column in 0..columns {
-                let at = |number: u32, of: u32| match of {
-                    1 => 0.0,
-                    _ => f64::from(number) / f64::from(of - 1) - 0.5,
-                };
-                let (u, v) = (at(column, columns), at(row, rows));
-                let place = if area.circular { on_disc(u, v) } else { (u, v) };
-                let is_first = area
-                    .adaptive
-                    .is_none_or(|level| is_coarse(column, columns, level) && is_coarse(row, rows, level));
-                if is_first { &mut points } else { &mut rest }.push(place);
-            }
+        let mut weights = vec![[0.0; 2]; (columns * rows) as usize];
+        let whole = [0, 0, columns - 1, rows - 1];
+        spread(&mut weights, columns, whole, 1.0, 0, u32::MAX);
+        spread(&mut weights, columns, whole, 1.0, 1, area.adaptive.unwrap_or(u32::MAX));
+        let mut points = Vec::with_capacity(weights.len());
+        for (number, weights) in (0..).zip(weights) {
+            let at = |number: u32, of: u32| match of {
+                1 => 0.0,
+                _ => f64::from(number) / f64::from(of - 1) - 0.5,
+            };
+            let (u, v) = (at(number % columns, columns), at(number / columns, rows));
+            points.push(Point { at: if area.circular { on_disc(u, v) } else { (u, v) }, weights });
         }
-        let first = points.len();
-        points.extend(rest);
+        points.sort_by_key(|point| point.weights[1] == 0.0);
+        let first = points.iter().take_while(|point| point.weights[1] > 0.0).count();
         Some(Self { sides: area.sides, orient: area.orient, points: points.into(), first })
+    }
+
+    /// The weight of a point among all points, and among those that are looked at first.
+    pub(crate) fn weights(&self, number: usize) -> [f64; 2] {
+        self.points[number].weights
     }
 
     /// The number of points.
@@ -53,7 +64,7 @@ impl Area {
     /// directions.
     #[inline(always)]
     pub(crate) fn offset(&self, number: usize, to_light: Vec3<F8>) -> Vec3<F8> {
-        let (u, v) = self.points[number];
+        let (u, v) = self.points[number].at;
         let [a, b] = self.sides;
         if !self.orient {
             return Vec3::<F8>::splat(a * u + b * v);
@@ -63,11 +74,26 @@ impl Area {
     }
 }
 
-/// Whether a point belongs to the coarse grid of a level.
-fn is_coarse(number: u32, of: u32, level: u32) -> bool {
-    let parts = 1_u32 << level.min(16);
-    let last = of - 1;
-    (0..=parts).any(|k| (k * last + parts / 2) / parts == number)
+/// Adds the weights of the points of a part of the grid, from one corner to the other: the mean of
+/// the four corners, or of four smaller parts, down to the given depth.
+fn spread(
+    weights: &mut [[f64; 2]],
+    columns: u32,
+    [u1, v1, u2, v2]: [u32; 4],
+    weight: f64,
+    kind: usize,
+    depth: u32,
+) {
+    if depth == 0 || (u2 <= u1 + 1 && v2 <= v1 + 1) {
+        for (u, v) in [(u1, v1), (u2, v1), (u1, v2), (u2, v2)] {
+            weights[(v * columns + u) as usize][kind] += weight * 0.25;
+        }
+        return;
+    }
+    let (u, v) = ((u1 + u2) / 2, (v1 + v2) / 2);
+    for part in [[u1, v1, u, v], [u, v1, u2, v], [u1, v, u, v2], [u, v, u2, v2]] {
+        spread(weights, columns, part, weight * 0.25, kind, depth - 1);
+    }
 }
 
 /// Two unit vectors across a direction and each other.
@@ -112,7 +138,9 @@ mod tests {
         };
         let area = Area::new(&area).unwrap();
         assert_eq!((area.first, area.len()), (4, 15));
-        assert_eq!(area.points[0], (-0.5, -0.5));
+        assert_eq!(area.points[0].at, (-0.5, -0.5));
+        let sum = |kind: usize| area.points.iter().map(|point| point.weights[kind]).sum::<f64>();
+        assert_eq!([sum(0), sum(1)], [1.0, 1.0]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use durer_scene::{Around, BlackHole, PointWarp, Wrap};
 
 use super::field::Stir;
 use super::place::Place;
-use crate::vector::{dot, floor, length, unit};
+use crate::vector::{floor, length, unit};
 
 /// A [`PointWarp`] with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,8 +152,13 @@ fn along(flat: Vec3, orientation: Vec3) -> Point3 {
     }
 }
 
-/// The point of the plane `z = 0` that shows what a plane shows at `p`.
-fn flattened(p: Point3, normal: Vec3, distance: f64) -> Point3 {
-    let on_plane = p - normal * (dot(normal, p.to_vec()) - distance);
-    Point3::new(on_plane.x, on_plane.y, on_plane.z)
+/// The point of the plane `z = d` for a point of another plane with the unit normal `n` and the
+/// distance `d` from the origin. This is the scene language's map, which is a rotation only for
+/// normals along an axis; it was fitted to POV-Ray's values.
+fn flattened(p: Point3, n: Vec3, d: f64) -> Point3 {
+    Point3::new(
+        (n.y + n.z) * p.x + n.x * d,
+        (n.x + n.z) * p.y - n.y * d,
+        n.y * p.y - n.x * p.x + n.z * d,
+    )
 }
