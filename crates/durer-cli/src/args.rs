@@ -45,6 +45,10 @@ pub(crate) struct SceneArgs {
     /// Changes a limit of the reader, for example `macro-depth=2000`; may be given several times.
     #[arg(long, value_name = "NAME=N", value_parser = limit)]
     pub(crate) limit: Vec<(String, u64)>,
+    /// Refuses a scene with features that would be left out of the picture: radiosity, photons,
+    /// media, subsurface.
+    #[arg(long)]
+    pub(crate) strict: bool,
 }
 
 /// The size of the picture.

@@ -71,6 +71,7 @@ pub(crate) fn read_options(args: &SceneArgs, (width, height): (u32, u32)) -> Res
         image_width: width,
         image_height: height,
         limits,
+        strict: args.strict,
     })
 }
 

@@ -75,7 +75,7 @@ mod lane_numbers;
 mod lane_powers;
 mod lane_waves;
 pub mod lanes;
-mod noise;
+pub mod noise;
 pub mod number;
 pub mod predicates;
 mod ray;

@@ -17,6 +17,12 @@ pub(crate) enum Projection {
     #[default]
     Perspective,
     Orthographic,
+    Fisheye,
+    UltraWideAngle,
+    Panoramic,
+    Spherical,
+    /// One of the four kinds.
+    Cylinder(u8),
 }
 
 /// A finished camera. Rays start at `location` along `direction + u right + v up` (perspective), or
@@ -31,6 +37,8 @@ pub(crate) struct Camera {
     pub(crate) sky: [f64; 3],
     /// The last `look_at` point; transformations do not change it.
     look_at: [f64; 3],
+    /// The angles in degrees that the text gives: the horizontal one, and the vertical one.
+    pub(crate) angles: [Option<f64>; 2],
 }
 
 impl Default for Camera {
@@ -43,6 +51,7 @@ impl Default for Camera {
             up: [0.0, 1.0, 0.0],
             sky: [0.0, 1.0, 0.0],
             look_at: [0.0, 0.0, 1.0],
+            angles: [None; 2],
         }
     }
 }
@@ -52,7 +61,7 @@ impl Default for Camera {
 enum Setting {
     Right([f64; 3]),
     Direction([f64; 3]),
-    Angle(f64),
+    Angle(f64, Place),
     Up([f64; 3]),
     Sky([f64; 3]),
     Location([f64; 3]),
@@ -65,7 +74,7 @@ impl Setting {
         match self {
             Self::Right(_) => 0,
             Self::Direction(_) => 1,
-            Self::Angle(_) => 2,
+            Self::Angle(..) => 2,
             Self::Up(_) => 3,
             Self::Sky(_) => 4,
             Self::Location(_) => 5,
@@ -79,6 +88,26 @@ fn scaled(v: [f64; 3], by: f64) -> [f64; 3] {
 }
 
 impl Camera {
+    /// The projection as data of the scene.
+    pub(crate) fn projection(&self) -> durer_scene::Projection {
+        use durer_scene::Projection as To;
+        let angle = |absent: f64| self.angles[0].unwrap_or(absent).to_radians();
+        match self.projection {
+            Projection::Perspective => To::Perspective,
+            Projection::Orthographic => To::Orthographic,
+            Projection::Fisheye => To::Fisheye(angle(90.0)),
+            Projection::UltraWideAngle => To::UltraWideAngle(angle(90.0)),
+            Projection::Panoramic => To::Panoramic,
+            Projection::Spherical => {
+                let wide = angle(360.0);
+                To::Spherical(wide, self.angles[1].map_or(wide * 0.5, f64::to_radians))
+            }
+            Projection::Cylinder(kind) => {
+                To::Cylinder { angle: angle(90.0), vertical: kind % 2 == 1, moving: kind > 2 }
+            }
+        }
+    }
+
     fn transform(&mut self, by: &Matrix) {
         self.location = by.point(self.location);
         for vector in [&mut self.direction, &mut self.right, &mut self.up, &mut self.sky] {
@@ -162,6 +191,32 @@ impl Parser<'_> {
                     camera.projection = Projection::Orthographic;
                     continue;
                 }
+                Item::Word(Keyword::Fisheye) => {
+                    camera.projection = Projection::Fisheye;
+                    continue;
+                }
+                Item::Word(Keyword::UltraWideAngle) => {
+                    camera.projection = Projection::UltraWideAngle;
+                    continue;
+                }
+                Item::Word(Keyword::Panoramic) => {
+                    camera.projection = Projection::Panoramic;
+                    continue;
+                }
+                Item::Word(Keyword::Spherical) => {
+                    camera.projection = Projection::Spherical;
+                    continue;
+                }
+                Item::Word(Keyword::Cylinder) => {
+                    let kind = self.float()?;
+                    if !(1.0..5.0).contains(&kind) {
+                        let text = format!("a camera's cylinder is of the kind 1 to 4, not {kind}");
+                        return Err(Error::invalid(place, text));
+                    }
+                    camera.projection = Projection::Cylinder(kind as u8);
+                    continue;
+                }
+                Item::Word(Keyword::Normal) => return Err(Error::unsupported(place, "normal of a camera")),
                 Item::Word(Keyword::Right) => Setting::Right(self.axis("right")?),
                 Item::Word(Keyword::Up) => Setting::Up(self.axis("up")?),
                 Item::Word(Keyword::Direction) => Setting::Direction(self.axis("direction")?),
@@ -171,14 +226,13 @@ impl Parser<'_> {
                 Item::Word(Keyword::Angle) => {
                     // A word without a number means 0.
                     let angle = self.float_or(0.0)?;
-                    if !(0.0..180.0).contains(&angle) {
-                        let text = format!("a camera's angle is between 0 and 180 degrees, not {angle}");
-                        return Err(Error::invalid(place, text));
-                    }
-                    if self.take_mark(Mark::Comma)? {
-                        return Err(Error::unsupported(place, "angle with two values"));
-                    }
-                    Setting::Angle(angle)
+                    let vertical = if self.take_mark(Mark::Comma)? || self.starts_number()? {
+                        Some(self.float()?)
+                    } else {
+                        None
+                    };
+                    camera.angles = [Some(angle).filter(|angle| *angle > 0.0), vertical];
+                    Setting::Angle(angle, place)
                 }
                 _ => return Err(self.unexpected(&lexeme, "a part of a camera")),
             });
@@ -217,6 +271,7 @@ impl Parser<'_> {
 
     fn apply(&self, camera: &mut Camera, settings: &[Setting]) -> Result<()> {
         let (mut sized, mut angled) = (false, false);
+        let is_flat = matches!(camera.projection, Projection::Perspective | Projection::Orthographic);
         for setting in settings {
             match *setting {
                 Setting::Right(v) => (camera.right, sized) = (v, true),
@@ -224,7 +279,13 @@ impl Parser<'_> {
                 Setting::Direction(v) => camera.direction = v,
                 Setting::Sky(v) => camera.sky = v,
                 Setting::Location(v) => camera.location = v,
-                Setting::Angle(degrees) => {
+                // Elsewhere the angle is not that of a plane picture.
+                Setting::Angle(..) if !is_flat => {}
+                Setting::Angle(degrees, place) => {
+                    if !(0.0..180.0).contains(&degrees) {
+                        let text = format!("a camera's angle is between 0 and 180 degrees, not {degrees}");
+                        return Err(Error::invalid(place, text));
+                    }
                     // An angle of 0 does not change the direction.
                     if degrees > 0.0 {
                         camera.set_angle(degrees);

@@ -230,6 +230,19 @@ impl Parser<'_> {
                 self.next()?;
                 Ok(Value::Pigment(Rc::new(self.pigment_block(&base.pigment)?)))
             }
+            Keyword::Normal => {
+                self.next()?;
+                let base = base.normal.as_deref().cloned().unwrap_or_default();
+                Ok(Value::Normal(Rc::new(self.normal_block(&base)?)))
+            }
+            Keyword::SlopeMap => {
+                self.next()?;
+                Ok(Value::SlopeMap(self.slope_map_block()?))
+            }
+            Keyword::NormalMap => {
+                self.next()?;
+                Ok(Value::NormalMap(self.normal_map_block(false)?))
+            }
             Keyword::Finish => {
                 self.next()?;
                 Ok(Value::Finish(Rc::new(self.finish_block(&base.finish)?)))
@@ -248,11 +261,19 @@ impl Parser<'_> {
             }
             Keyword::PigmentMap => {
                 self.next()?;
-                Ok(Value::PigmentMap(self.pigment_map_block()?))
+                Ok(Value::PigmentMap(self.pigment_map_block(false)?))
             }
             Keyword::TextureMap => {
                 self.next()?;
-                Ok(Value::TextureMap(self.texture_map_block()?))
+                Ok(Value::TextureMap(self.texture_map_block(false)?))
+            }
+            Keyword::Fog => {
+                self.next()?;
+                Ok(Value::Fog(self.fog_block()?))
+            }
+            Keyword::SkySphere => {
+                self.next()?;
+                Ok(Value::SkySphere(self.sky_sphere_block()?))
             }
             Keyword::Camera => {
                 self.next()?;

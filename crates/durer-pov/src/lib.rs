@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod atmosphere;
 mod branches;
 mod camera;
 mod colour;
@@ -38,6 +39,7 @@ mod limits;
 mod macros;
 mod messages;
 mod noise_pattern;
+mod normal_builder;
 mod object;
 mod parser;
 mod pattern_function;
@@ -51,6 +53,7 @@ mod source;
 mod spline;
 mod strings;
 mod texture;
+mod texture_builder;
 mod transform;
 mod unsupported;
 mod value;

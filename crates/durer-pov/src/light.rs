@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::diagnostics::Result;
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::object::{Object, Shape};
@@ -39,6 +39,8 @@ pub(crate) struct Light {
     /// The fade distance; 0 if the light does not fade.
     pub(crate) fade_distance: f64,
     pub(crate) fade_power: f64,
+    /// Its extent, for soft shadows.
+    pub(crate) area: Option<Area>,
     /// The object that is shown in its place; it does not shadow this light.
     pub(crate) looks_like: Option<Rc<Object>>,
 }
@@ -56,6 +58,7 @@ impl Light {
             parallel: false,
             fade_distance: 0.0,
             fade_power: 0.0,
+            area: None,
             looks_like: None,
         }
     }
@@ -64,10 +67,26 @@ impl Light {
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.location = by.point(self.location);
         self.point_at = by.point(self.point_at);
+        if let Some(area) = &mut self.area {
+            area.sides = area.sides.map(|side| by.direction(side));
+        }
         if let Some(shown) = &mut self.looks_like {
             Rc::make_mut(shown).transform(by);
         }
     }
+}
+
+/// The greatest number of points along a side of an area light.
+const MOST_POINTS: f64 = 1024.0;
+
+/// The extent of an area light.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Area {
+    pub(crate) sides: [[f64; 3]; 2],
+    pub(crate) points: [u32; 2],
+    pub(crate) circular: bool,
+    pub(crate) orient: bool,
+    pub(crate) adaptive: Option<u32>,
 }
 
 impl Parser<'_> {
@@ -131,6 +150,33 @@ impl Parser<'_> {
                 Item::Word(Keyword::MediaInteraction | Keyword::MediaAttenuation) => {
                     self.switch_value()?;
                 }
+                Item::Word(Keyword::AreaLight) => {
+                    let first = self.corner()?;
+                    let second = self.corner()?;
+                    let columns = self.points_of_area()?;
+                    self.skip_comma()?;
+                    let rows = self.points_of_area()?;
+                    let area = light.area.get_or_insert_with(Area::default);
+                    (area.sides, area.points) = ([first, second], [columns, rows]);
+                }
+                Item::Word(Keyword::Adaptive) => {
+                    let level = self.float()?;
+                    light.area.get_or_insert_with(Area::default).adaptive = Some(level.max(0.0) as u32);
+                }
+                // Points that are moved at random would make the picture grainy.
+                Item::Word(Keyword::Jitter) => {}
+                Item::Word(Keyword::Circular) => {
+                    light.area.get_or_insert_with(Area::default).circular = true;
+                }
+                Item::Word(Keyword::Orient) => {
+                    light.area.get_or_insert_with(Area::default).orient = true;
+                }
+                Item::Word(Keyword::AreaIllumination) => {
+                    if self.switch_value()? {
+                        return Err(Error::unsupported(lexeme.place, "area_illumination"));
+                    }
+                }
+                Item::Word(Keyword::Photons) => self.skip_photons()?,
                 Item::Word(Keyword::LooksLike) => {
                     let shown = self.nested(Self::object_in_braces)?;
                     let mut shown = (*shown).clone();
@@ -140,5 +186,17 @@ impl Parser<'_> {
                 _ => return Err(self.unexpected(&lexeme, "a part of a light")),
             }
         }
+    }
+
+    /// The number of points along a side of an area light.
+    fn points_of_area(&mut self) -> Result<u32> {
+        self.peek()?;
+        let at = self.here();
+        let count = self.float()?;
+        if !(1.0..=MOST_POINTS).contains(&count) {
+            let text = format!("an area light has 1 to {MOST_POINTS} points along a side, not {count}");
+            return Err(Error::invalid(at, text));
+        }
+        Ok(count as u32)
     }
 }

@@ -22,7 +22,6 @@ use durer_math::elementary;
 use durer_math::scale::pow2;
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
-use crate::diagnostics::Place;
 use crate::formulas;
 use crate::keywords::Keyword;
 use crate::texture::{Pattern, PatternKind};
@@ -52,19 +51,33 @@ pub(crate) struct Turbulence {
     pub(crate) agate: f64,
     /// The noise generator.
     pub(crate) generator: f64,
-    /// The place of the turbulence in the text, if there is any.
-    pub(crate) at: Option<Place>,
 }
 
 impl Default for Turbulence {
     fn default() -> Self {
-        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0, at: None }
+        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0 }
     }
 }
 
 impl Turbulence {
     pub(crate) fn is_none(&self) -> bool {
         self.amount == [0.0; 3]
+    }
+
+    /// As data of the scene.
+    pub(crate) fn scene(&self) -> durer_scene::Turbulence {
+        let [x, y, z] = self.amount;
+        let (count, lambda, omega) = (self.octaves(), self.lambda, self.omega);
+        durer_scene::Turbulence {
+            amount: durer_math::Vec3::new(x, y, z),
+            octaves: durer_scene::Octaves { count, lambda, omega },
+            old: self.is_old(),
+        }
+    }
+
+    /// Whether the noise of patterns is the first generator's. The third's is shown as the second's.
+    pub(crate) fn is_old(&self) -> bool {
+        self.generator < 2.0
     }
 
     fn octaves(&self) -> u32 {
@@ -258,7 +271,6 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
 
 /// A point in a pattern's space with turbulence, as most patterns use it.
 pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
-    let its_own = matches!(pattern.kind, PatternKind::Written(Keyword::Marble | Keyword::Wood, _));
     let turbulence = *pattern.modifiers.turbulence;
-    if its_own || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
+    if pattern.kind.stirs_itself() || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
 }

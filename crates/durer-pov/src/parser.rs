@@ -90,6 +90,8 @@ pub(crate) struct Parser<'a> {
     macro_depth: u64,
     pub(crate) streams: Vec<u32>,
     pub(crate) language: crate::settings::Language,
+    /// The features of the scene that are left out of the picture.
+    pub(crate) left_out: Vec<&'static str>,
     pub(crate) defaults: Rc<crate::texture::Layer>,
     pub(crate) default_camera: crate::camera::Camera,
     pub(crate) scene: crate::scene_builder::Output,
@@ -120,6 +122,7 @@ impl<'a> Parser<'a> {
             macro_depth: 0,
             streams: Vec::new(),
             language: crate::settings::Language::default(),
+            left_out: Vec::new(),
             defaults: Rc::default(),
             default_camera: crate::camera::Camera::default(),
             scene: crate::scene_builder::Output::default(),

@@ -62,9 +62,12 @@ fn value(word: Keyword) -> Option<&'static str> {
     })
 }
 
-/// Whether the word is that of a pattern that only functions support.
+/// Whether the word is that of a pattern with a map and without numbers of its own.
 pub(crate) fn is_written(word: Keyword) -> bool {
-    value(word).is_some() || noise_pattern::is_noise(word) || matches!(word, Keyword::Marble | Keyword::Wood)
+    use Keyword::{Cells, Marble, Ripples, Waves, Wood};
+    value(word).is_some()
+        || noise_pattern::is_noise(word)
+        || matches!(word, Marble | Wood | Cells | Ripples | Waves)
 }
 
 /// The wave that the word of a pattern sets.
@@ -145,6 +148,9 @@ pub(crate) fn third_generator(place: Place) -> Box<Error> {
 
 /// The value of a pattern at a point in its own space; `None` if no formula is known.
 pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
+    if !pattern.modifiers.warps.is_empty() {
+        return None;
+    }
     let own = noise_pattern::stirred(b, pattern, own)?;
     let value = match pattern.kind {
         PatternKind::Checker => called(b, CHECKER, own, &[])?,
@@ -158,6 +164,11 @@ pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> O
         },
         PatternKind::Hexagon => called(b, HEXAGON, own, &[])?,
         PatternKind::Brick { size: [x, y, z], mortar } => called(b, BRICK, own, &[x, y, z, mortar])?,
+        PatternKind::Square
+        | PatternKind::Triangular
+        | PatternKind::Ramp(..)
+        | PatternKind::GreyOf(_)
+        | PatternKind::Average => return None,
     };
     changed(b, pattern, value)
 }

@@ -17,7 +17,7 @@ use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
 use crate::parser::Parser;
 use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
-use crate::texture::{Body, Map, Paint, Pattern, Pigment};
+use crate::texture::{Body, Map, Paint, Pattern, PatternKind, Pigment};
 
 /// The components of a colour, as steps.
 type Colour = [NodeId; 5];
@@ -64,13 +64,16 @@ fn everywhere(b: &mut Builder, pigment: &Pigment) -> std::result::Result<Colour,
 
 /// The colour of a pigment at the point `p`.
 fn shown(b: &mut Builder, p: [NodeId; 3], pigment: &Pigment) -> std::result::Result<Colour, Lack> {
-    let kind = match pigment.body {
-        Body::Solid(colour) => return constant(b, &colour),
-        Body::Patterned(kind) => kind,
+    let kind = match &pigment.body {
+        Body::Solid(colour) => return constant(b, colour),
+        Body::Patterned(kind) => kind.clone(),
     };
-    let pattern = Pattern { kind, modifiers: pigment.modifiers.clone() };
+    let pattern = Pattern { kind: kind.clone(), modifiers: pigment.modifiers.clone() };
     let (value, own) = place_and_value(b, p, &pattern)?;
-    match pigment.paint(kind) {
+    if kind == PatternKind::Average {
+        return Err(Lack::Formula);
+    }
+    match pigment.paint(&kind) {
         Paint::Colors(map) => {
             let mut entries = Vec::with_capacity(map.entries.len());
             for (_, colour) in &map.entries {

@@ -30,6 +30,9 @@ pub struct ReadOptions {
     pub image_height: u32,
     /// The limits of the reader.
     pub limits: Limits,
+    /// Whether a scene is refused that uses a feature which would be left out of the picture:
+    /// `radiosity`, `photons`, `media`, `subsurface`.
+    pub strict: bool,
 }
 
 impl Default for ReadOptions {
@@ -41,6 +44,7 @@ impl Default for ReadOptions {
             image_width: 800,
             image_height: 600,
             limits: Limits::default(),
+            strict: false,
         }
     }
 }
@@ -210,7 +214,16 @@ impl Parser<'_> {
                 Item::Word(keyword) if let Some(directive) = bare_directive(*keyword) => {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
+                Item::Word(Keyword::Media) => self.leave_out(Keyword::Media, place)?,
                 Item::Word(Keyword::Background) => self.background()?,
+                Item::Word(Keyword::Fog) => {
+                    self.put_back(lexeme);
+                    self.fog_statement()?;
+                }
+                Item::Word(Keyword::SkySphere) => {
+                    self.put_back(lexeme);
+                    self.sky_sphere_statement()?;
+                }
                 Item::Word(Keyword::GlobalSettings) => self.global_settings()?,
                 Item::Word(keyword) if begins_object(*keyword) => self.object_statement(lexeme)?,
                 Item::Value(Value::Object(_)) | Item::Unknown(_) => self.object_statement(lexeme)?,
@@ -228,7 +241,7 @@ impl Parser<'_> {
                 self.notice(start, "the scene has no camera: the default one is used");
             }
         }
-        Ok(self.finished())
+        self.finished()
     }
 
     fn object_statement(&mut self, first: crate::parser::Lexeme) -> Result<()> {

@@ -8,18 +8,17 @@ use std::sync::Arc;
 use durer_math::{Affine, Point3, Vec3};
 use durer_scene as scene;
 
-use crate::camera::{Camera, Projection};
+use crate::atmosphere::SkySphere;
+use crate::camera::Camera;
 use crate::colour::Colour;
-use crate::diagnostics::{Error, ErrorKind, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::light::{Beam, Light};
 use crate::limits;
 use crate::object::{Object, Shape};
 use crate::parser::Parser;
-use crate::pattern_function::changed_number;
 use crate::settings::{Gamma, Globals};
-use crate::texture::{
-    Body, Finish, Interior, Layer, Map, Paint, Pattern, PatternKind, Pigment, Texture, Wave,
-};
+use crate::texture::{Finish, Interior, Layer, Texture};
+use crate::texture_builder::{pigment, texture};
 use crate::transform::{Matrix, length};
 
 /// The scene so far.
@@ -27,6 +26,8 @@ use crate::transform::{Matrix, length};
 pub(crate) struct Output {
     pub(crate) camera: Option<Camera>,
     pub(crate) background: Option<Colour>,
+    pub(crate) fogs: Vec<scene::Fog>,
+    pub(crate) sky: Option<(Rc<SkySphere>, Place)>,
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
     lights: Vec<scene::Light>,
@@ -56,7 +57,7 @@ fn unit(v: [f64; 3]) -> Vec3 {
     if length > 0.0 && length.is_finite() { vector(v.map(|x| x / length)) } else { vector(v) }
 }
 
-fn rgb(c: [f64; 3]) -> scene::Rgb {
+pub(crate) fn rgb(c: [f64; 3]) -> scene::Rgb {
     scene::Rgb::new(c[0], c[1], c[2])
 }
 
@@ -70,7 +71,7 @@ pub(crate) fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
     })
 }
 
-fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
+pub(crate) fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
     if matrix.is_identity() {
         return Ok(scene::Placement::IDENTITY);
     }
@@ -142,6 +143,13 @@ impl Parser<'_> {
             point_at: point(moved.point(light.point_at)),
             parallel: light.parallel,
             shadowless: light.beam == Beam::Shadowless,
+            area: light.area.filter(|area| area.points.iter().all(|n| *n > 0)).map(|area| scene::AreaLight {
+                sides: area.sides.map(|side| vector(moved.direction(side))),
+                points: area.points,
+                circular: area.circular,
+                orient: area.orient,
+                adaptive: area.adaptive,
+            }),
             fade: fades.then_some(scene::Fade { distance: light.fade_distance, power: light.fade_power }),
         });
         let Some(shown) = &light.looks_like else { return Ok(()) };
@@ -292,7 +300,7 @@ impl Parser<'_> {
     }
 
     /// The whole scene.
-    pub(crate) fn finished(&mut self) -> scene::Scene {
+    pub(crate) fn finished(&mut self) -> Result<scene::Scene> {
         let output = std::mem::take(&mut self.scene);
         let version = self.language.shading_version();
         let gamma = match self.language.gamma {
@@ -302,14 +310,12 @@ impl Parser<'_> {
             None => scene::AssumedGamma::Power(1.0),
         };
         let globals = output.globals;
-        scene::Scene {
+        let sky = output.sky.map(|(sky, at)| sky_sphere(&sky, at)).transpose()?;
+        Ok(scene::Scene {
             objects: output.objects,
             lights: output.lights,
             camera: output.camera.map(|camera| scene::Camera {
-                projection: match camera.projection {
-                    Projection::Perspective => scene::Projection::Perspective,
-                    Projection::Orthographic => scene::Projection::Orthographic,
-                },
+                projection: camera.projection(),
                 location: point(camera.location),
                 direction: vector(camera.direction),
                 right: vector(camera.right),
@@ -318,6 +324,8 @@ impl Parser<'_> {
             background: output.background.map_or_else(scene::Background::default, |color| {
                 scene::Background(scene::Colour::from_terms(color))
             }),
+            sky,
+            fogs: output.fogs,
             settings: scene::Settings {
                 assumed_gamma: gamma,
                 version,
@@ -325,7 +333,7 @@ impl Parser<'_> {
                 adc_bailout: globals.adc_bailout,
                 ambient_light: rgb(globals.ambient_light),
             },
-        }
+        })
     }
 }
 
@@ -525,126 +533,14 @@ fn texture_of_object(own: &Texture, at: Place) -> Result<Arc<scene::Texture>> {
     texture(own, at).map(Arc::new).map_err(|fault| fault.of_object(at))
 }
 
-fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
-    match own {
-        Texture::Layers(layers) => {
-            let made = layers.iter().map(|layer| layer_of(layer, at)).collect::<Result<_>>()?;
-            Ok(scene::Texture {
-                body: scene::TextureBody::Layers(made),
-                placement: scene::Placement::IDENTITY,
-            })
-        }
-        Texture::Patterned { pattern, map } => {
-            let made = pattern_of(
-                pattern,
-                map,
-                |part| texture(part, at).map(Arc::new),
-                |_, _, _| Err(blend_of_patterns(at)),
-            )?;
-            Ok(scene::Texture {
-                body: scene::TextureBody::Pattern(Box::new(made)),
-                placement: placement(&pattern.modifiers.place, at)?,
-            })
-        }
-    }
-}
-
-fn layer_of(layer: &Layer, at: Place) -> Result<scene::Layer> {
-    Ok(scene::Layer { pigment: pigment(&layer.pigment, at)?, finish: Arc::new(finish(&layer.finish)) })
-}
-
-fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
-    let kind = match own.body {
-        Body::Solid(color) => return Ok(scene::Pigment::solid(scene::Colour::from_terms(color))),
-        Body::Patterned(kind) => kind,
-    };
-    let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
-    let mut made = match own.paint(kind) {
-        Paint::Colors(map) => scene::Pigment::colours(pattern_of(
-            &pattern,
-            &map,
-            |color| Ok(scene::Colour::from_terms(*color)),
-            |a, b, k| Ok(blended(*a, *b, k)),
-        )?),
-        Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(
-            &pattern,
-            &map,
-            |part| pigment(part, at),
-            |a, b, k| match (a.body, b.body) {
-                (Body::Solid(a), Body::Solid(b)) => Ok(Pigment::solid(blended(a, b, k))),
-                _ => Err(blend_of_patterns(at)),
-            },
-        )?),
-    };
-    made.placement = placement(&pattern.modifiers.place, at)?;
-    Ok(made)
-}
-
-/// The colour between two colours, with the weight `k` for the second.
-fn blended(from: Colour, to: Colour, k: f64) -> Colour {
-    core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
-}
-
-fn blend_of_patterns(at: Place) -> Box<Error> {
-    let text = "not supported yet: a frequency or a wave that blends the patterns or textures of a list";
-    Error::at(at, ErrorKind::Unsupported, text)
-}
-
-/// A pattern of scene data: `part` converts an entry, `blend` mixes two.
-fn pattern_of<T: Clone, U>(
-    pattern: &Pattern,
-    map: &Map<T>,
-    mut part: impl FnMut(&T) -> Result<U>,
-    blend: impl Fn(&T, &T, f64) -> Result<T>,
-) -> Result<scene::Pattern<U>> {
-    let cells = match pattern.kind {
-        PatternKind::Written(word, place) => return Err(Error::unsupported(place, word.text())),
-        _ if let Some(place) = pattern.modifiers.turbulence.at => {
-            return Err(Error::unsupported(place, "turbulence"));
-        }
-        PatternKind::Checker => scene::Cells::Checker,
-        PatternKind::Hexagon => scene::Cells::Hexagon,
-        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(size), mortar },
-        PatternKind::Gradient(direction) => {
-            let entries = map.entries.iter().map(|(at, item)| Ok((*at, part(item)?)));
-            return Ok(scene::Pattern::Map {
-                value: scene::Value {
-                    ramp: scene::Ramp::Gradient(vector(direction)),
-                    frequency: pattern.modifiers.frequency,
-                    phase: pattern.modifiers.phase,
-                    wave: match pattern.modifiers.wave {
-                        Wave::Ramp => scene::Wave::Ramp,
-                        Wave::Triangle => scene::Wave::Triangle,
-                        Wave::Sine => scene::Wave::Sine,
-                        Wave::Scallop => scene::Wave::Scallop,
-                        Wave::Cubic => scene::Wave::Cubic,
-                        Wave::Poly(power) => scene::Wave::Poly(power),
-                    },
-                },
-                entries: entries.collect::<Result<_>>()?,
-            });
-        }
-    };
-    let entry = |number: usize| {
-        let plain = |i: usize| Ok(map.entries[i].1.clone());
-        if pattern.is_plain_list() {
-            return plain(number);
-        }
-        let last = map.entries.len() - 1;
-        // If the wave is undefined, the first entry is shown.
-        let shown = changed_number(pattern, number).filter(|shown| !shown.is_nan()).unwrap_or(0.0);
-        let shown = shown.clamp(0.0, last as f64);
-        let below = shown as usize;
-        let k = shown - below as f64;
-        if k == 0.0 { plain(below) } else { blend(&map.entries[below].1, &map.entries[below + 1].1, k) }
-    };
-    let entries = (0..map.entries.len()).map(|number| part(&entry(number)?)).collect::<Result<_>>()?;
-    Ok(scene::Pattern::Cells { cells, entries })
+fn sky_sphere(own: &SkySphere, at: Place) -> Result<scene::SkySphere> {
+    let pigments = own.pigments.iter().map(|own| pigment(own, at)).collect::<Result<_>>()?;
+    Ok(scene::SkySphere { pigments, emission: rgb(own.emission) })
 }
 
 /// Converts a finish. Negative amounts of scattering or highlights have no effect (a fact of the
 /// language).
-fn finish(own: &Finish) -> scene::Finish {
+pub(crate) fn finish(own: &Finish) -> scene::Finish {
     let mirror = own.reflection;
     let mirrors = mirror.min.iter().chain(&mirror.max).any(|part| *part != 0.0);
     scene::Finish {

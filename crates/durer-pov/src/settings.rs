@@ -147,11 +147,28 @@ impl Parser<'_> {
                     self.float()?;
                 }
                 Keyword::IridWavelength => drop(self.colour()?),
-                Keyword::Photons => return Err(Error::unsupported(place, "photons")),
+                Keyword::Photons | Keyword::Radiosity | Keyword::Subsurface => {
+                    self.leave_out(keyword, place)?;
+                }
                 Keyword::HfGray16 => drop(self.switch_value()?),
                 _ => return Err(self.unexpected(&lexeme, "a global setting")),
             }
         }
+    }
+
+    /// Skips the block of a feature that is left out of the picture, and warns of that.
+    pub(crate) fn leave_out(&mut self, keyword: Keyword, place: Place) -> Result<()> {
+        let word = keyword.text();
+        if self.options.strict {
+            return Err(Error::unsupported(place, word));
+        }
+        if !self.left_out.contains(&word) {
+            self.left_out.push(word);
+            self.notice(place, format!("{word} is not supported yet: the picture is rendered without it"));
+        }
+        let braces = self.braces;
+        self.expect(Mark::BraceOpen)?;
+        self.skip_to_brace_level(braces)
     }
 
     fn noise_generator(&mut self, place: Place) -> Result<()> {

@@ -11,9 +11,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | Adaptive
-            | Agate
-            | AgateTurb
             | All
             | Alpha
             | Altitude
@@ -23,60 +20,33 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Append
             | ArcAngle
             | AreaIllumination
-            | AreaLight
             | Autostop
-            | Average
             | BicubicPatch
-            | BlackHole
             | BlurSamples
             | Bmp
             | Bokeh
-            | Boxed
-            | Bozo
             | Brightness
             | BumpMap
-            | BumpSize
-            | Bumps
-            | Cells
-            | Circular
             | Collect
             | Composite
             | Confidence
-            | Control0
-            | Control1
-            | Coords
             | Count
-            | Crackle
-            | Cylindrical
             | Density
             | DensityFile
             | DensityMap
-            | Dents
             | Df3
-            | DistExp
-            | Distance
             | Eccentricity
             | ErrorBound
             | ExpandThresholds
             | Exr
-            | Exterior
             | Extinction
-            | Facets
             | FalloffAngle
-            | Fisheye
             | Flatness
-            | Flip
             | FocalPoint
-            | Fog
-            | FogAlt
-            | FogOffset
-            | FogType
-            | Form
             | Gamma
             | Gather
             | Gif
             | GlobalLights
-            | Granite
             | GrayThreshold
             | Hdr
             | Iff
@@ -87,45 +57,26 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Interpolate
             | Intervals
             | Irid
-            | Jitter
             | Jpeg
-            | Julia
-            | Leopard
             | LightGroup
             | LoadFile
             | LowErrorFactor
-            | Magnet
-            | MajorRadius
-            | Mandel
             | MapType
-            | Marble
             | MaterialMap
             | MaxSample
             | MaximumReuse
-            | Media
             | Method
-            | Metric
             | MinimumReuse
             | NearestCount
-            | NoBumpScale
-            | Normal
-            | NormalMap
             | NumberOfSides
             | NumberOfTiles
-            | Offset
             | Omnimax
             | Once
-            | Onion
-            | Orient
-            | Orientation
-            | Panoramic
             | Parametric
             | PassThrough
             | Pattern
             | Pavement
             | Pgm
-            | PigmentPattern
-            | Planar
             | Png
             | Pot
             | Ppm
@@ -136,16 +87,11 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Prod
             | ProjectedThrough
             | Pwr
-            | Quilted
-            | Radial
-            | Radiosity
             | Rainbow
             | Ratio
             | Reciprocal
             | RecursionLimit
             | Refraction
-            | Repeat
-            | Ripples
             | Samples
             | SaveFile
             | Scattering
@@ -155,37 +101,22 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint32le
             | Sint8
             | Size
-            | SkySphere
             | Slope
-            | SlopeMap
-            | Solid
             | Spacing
-            | Spherical
-            | Spiral1
-            | Spiral2
-            | Spotted
-            | Square
-            | Subsurface
             | Sum
             | Target
-            | Text
             | Tga
             | Thickness
             | Tiff
             | Tile2
             | Tiles
             | Tiling
-            | Toroidal
             | Translucency
-            | Triangular
-            | Ttf
-            | TurbDepth
             | Type
             | USteps
             | Uint16be
             | Uint16le
             | Uint8
-            | UltraWideAngle
             | UseAlpha
             | UseColor
             | UseIndex
@@ -193,11 +124,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | VSteps
             | Variance
             | Vturbulence
-            | Warp
-            | Waves
             | Width
-            | Wood
-            | Wrinkles
             | Xyz
     )
 }

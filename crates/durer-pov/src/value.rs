@@ -168,10 +168,15 @@ pub(crate) enum Value {
     Finish(Rc<crate::texture::Finish>),
     Texture(Rc<crate::texture::Texture>),
     ColorMap(Rc<crate::texture::ColorMap>),
+    SlopeMap(Rc<crate::texture::SlopeMap>),
+    Normal(Rc<crate::texture::Normal>),
+    NormalMap(Rc<crate::texture::Map<crate::texture::Normal>>),
     PigmentMap(Rc<crate::texture::Map<crate::texture::Pigment>>),
     TextureMap(Rc<crate::texture::Map<crate::texture::Texture>>),
     Interior(Rc<crate::texture::Interior>),
     Material(Rc<crate::texture::Material>),
+    Fog(Rc<crate::atmosphere::Fog>),
+    SkySphere(Rc<crate::atmosphere::SkySphere>),
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
@@ -200,10 +205,15 @@ impl Value {
             Self::Finish(_) => "a finish",
             Self::Texture(_) => "a texture",
             Self::ColorMap(_) => "a colour map",
+            Self::SlopeMap(_) => "a slope map",
+            Self::Normal(_) => "a normal",
+            Self::NormalMap(_) => "a normal map",
             Self::PigmentMap(_) => "a pigment map",
             Self::TextureMap(_) => "a texture map",
             Self::Interior(_) => "an interior",
             Self::Material(_) => "a material",
+            Self::Fog(_) => "fog",
+            Self::SkySphere(_) => "a sky sphere",
             Self::Camera(_) => "a camera",
             Self::Object(_) => "an object",
             Self::Macro(_) => "a macro",
@@ -220,13 +230,14 @@ impl Value {
         let layer = size_of::<crate::texture::Layer>();
         match self {
             Self::Texture(texture) => texture.size() * layer,
-            Self::Pigment(_) | Self::Finish(_) => layer,
+            Self::Pigment(_) | Self::Normal(_) | Self::Finish(_) => layer,
             Self::Material(material) => {
                 material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
             }
             Self::Function(called) => called.formula.ops().len() * 24,
             Self::VectorFunction(function) => function.steps() * 24,
-            Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
+            Self::SkySphere(sky) => sky.pigments.len() * layer,
+            Self::Fog(_) | Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }
     }

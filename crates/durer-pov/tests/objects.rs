@@ -158,7 +158,7 @@ fn maps_keep_the_order_of_the_text() {
     let values = |i: usize| match pigment(&scene, i).body {
         PigmentBody::Colours(pattern) => match *pattern {
             Pattern::Map { entries, .. } => entries.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
-            Pattern::Cells { .. } | Pattern::Mean(_) => panic!("no map"),
+            Pattern::Cells { .. } | Pattern::Mean(_) | Pattern::Warped { .. } => panic!("no map"),
         },
         _ => panic!("no colours"),
     };
@@ -477,7 +477,7 @@ fn what_is_cut_lends_its_texture_to_what_cuts() {
     let blue = inner[0].texture.clone().unwrap();
     assert_eq!([of(1, 0), of(1, 1), of(1, 2)], [red.clone(), blue.clone(), red.clone()]);
     let TextureBody::Pattern(pattern) = &of(1, 3).body else { panic!("a pattern") };
-    assert_eq!(**pattern, Pattern::Mean(vec![red.clone(), blue]));
+    assert_eq!(**pattern, Pattern::Mean(vec![(1.0, red.clone()), (1.0, blue)]));
     // Subtracted parts lend no texture, and a texture around everything takes precedence.
     assert_eq!([of(2, 0), of(2, 1)], [none.clone(), red.clone()]);
     assert_eq!([of(3, 0), of(3, 1)], [red.clone(), green]);

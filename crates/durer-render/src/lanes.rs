@@ -186,6 +186,17 @@ impl Colour8 {
         }
     }
 
+    /// Adds other colours times their weights in some lanes.
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self, weight: F8, lanes: M8) -> Self {
+        let add = |a: F8, b: F8| lanes.select(a + b * weight, a);
+        Self {
+            rgb: self.rgb.zip(other.rgb, add),
+            filter: add(self.filter, other.filter),
+            transmit: add(self.transmit, other.transmit),
+        }
+    }
+
     /// Interpolates all five terms from `a` (`k` = 0) to `b` (`k` = 1).
     #[inline(always)]
     pub(crate) fn mixed(a: Colour, b: Colour, k: F8) -> Self {

@@ -33,6 +33,7 @@
 
 pub mod camera;
 pub mod film;
+mod fog;
 mod integrator;
 mod interactive;
 mod lanes;
@@ -45,6 +46,7 @@ mod ray_end;
 mod render;
 mod sampler;
 mod settings;
+mod sky;
 mod stats;
 mod texture;
 mod vector;

@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 
 use durer_geometry::Geometry;
-use durer_math::{Aabb, AffineError, Ray};
-use durer_scene::{LowerError, Lowered, Place, Placement, Rgb, Scene, Texture};
+use durer_math::{Aabb, Affine, AffineError, Ray};
+use durer_scene::{LowerError, Lowered, Place, Placement, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
+use crate::fog::RenderFog;
 use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
+use crate::sky::Sky;
 use crate::texture::RenderTexture;
 
 /// A scene prepared for rendering: built once, then shared by all threads.
@@ -26,7 +28,8 @@ pub struct World {
     /// The media in which all of the camera's rays start, if there is a camera and these are
     /// certainly the same for all rays.
     standing: Option<Vec<u32>>,
-    pub(crate) background: Rgb,
+    pub(crate) sky: Sky,
+    pub(crate) fogs: Vec<RenderFog>,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
     /// Whether the opacity of a layer uses its filter times its greatest channel.
@@ -83,6 +86,7 @@ impl World {
                     paints.push(RenderTexture::new(
                         &look.texture,
                         look.frame.affine(),
+                        &Affine::IDENTITY,
                         settings.ambient_light,
                     )?);
                     let number = (paints.len() - 1) as u32;
@@ -96,7 +100,6 @@ impl World {
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
         let standing = standing(&lowered, scene.camera.as_ref(), camera.as_ref());
-        let background = scene.background.0;
         let lights = scene.lights.iter().filter_map(RenderLight::new);
         Ok(Self {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
@@ -108,8 +111,8 @@ impl World {
             camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
-            // Nothing lies behind the background, so its transparent part is black.
-            background: background.rgb * (1.0 - background.transmit),
+            fogs: scene.fogs.iter().map(RenderFog::new).collect(),
+            sky: Sky::new(scene, settings.version < NEW_OPACITY)?,
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
             filter_by_colour: settings.version < NEW_OPACITY,
@@ -162,6 +165,15 @@ impl World {
     /// same.
     pub(crate) fn standing(&self, origins: impl FnOnce() -> Aabb) -> Option<Vec<u32>> {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
+    }
+
+    /// All fog around rays in these media.
+    #[inline(always)]
+    pub(crate) fn fogs_in(&self, media: &[u32]) -> &[RenderFog] {
+        if self.fogs.is_empty() || media.iter().any(|&m| !self.lowered.hollow[m as usize]) {
+            return &[];
+        }
+        &self.fogs
     }
 
     /// Appends the media in which a camera ray starts.

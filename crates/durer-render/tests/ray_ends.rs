@@ -479,6 +479,7 @@ fn layers_of_a_texture_do_not_change_what_lies_on_a_light() {
         [HALF_CLEAR, [0.5, 1.0, 1.0, 1.0, 0.0]]
             .map(|colour| Layer {
                 pigment: Pigment::solid(Colour::from_terms(colour)),
+                normal: None,
                 finish: Arc::new(Finish::default()),
             })
             .into(),

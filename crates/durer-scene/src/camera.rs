@@ -21,12 +21,30 @@ pub struct Camera {
 }
 
 /// How points of the picture are mapped to rays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// All rays start at the location.
     Perspective,
     /// All rays have the same direction.
     Orthographic,
+    /// The angle to the direction of view grows with the distance from the middle of the picture;
+    /// the parameter is the angle, in radians, across the circle that is seen.
+    Fisheye(f64),
+    /// Angles grow along both sides of the picture; the parameter is the horizontal angle.
+    UltraWideAngle(f64),
+    /// Longitude and latitude on an ellipsoid with the camera's vectors as its axes.
+    Panoramic,
+    /// Longitude and latitude; the parameters are the horizontal and the vertical angle.
+    Spherical(f64, f64),
+    /// A cylinder around the location.
+    Cylinder {
+        /// The angle around the axis.
+        angle: f64,
+        /// Whether the axis is vertical.
+        vertical: bool,
+        /// Whether rays start on the axis and not at the location.
+        moving: bool,
+    },
 }
 
 impl Default for Camera {
@@ -46,8 +64,13 @@ impl Camera {
     /// A box that contains the origins of all rays.
     pub fn standpoints(&self) -> Aabb {
         match self.projection {
-            Projection::Perspective => Aabb::from_points([self.location]),
-            Projection::Orthographic => {
+            Projection::Perspective
+            | Projection::Fisheye(_)
+            | Projection::UltraWideAngle(_)
+            | Projection::Panoramic
+            | Projection::Spherical(..)
+            | Projection::Cylinder { moving: false, .. } => Aabb::from_points([self.location]),
+            Projection::Orthographic | Projection::Cylinder { moving: true, .. } => {
                 let corner = |a: f64, b: f64| self.location + (self.right * (a * 0.5) + self.up * (b * 0.5));
                 let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
                 let all = Aabb::from_points(corners.map(|(a, b)| corner(a, b)));

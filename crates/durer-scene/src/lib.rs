@@ -22,13 +22,17 @@
 mod camera;
 mod colour;
 mod finish;
+mod fog;
 mod interior;
 mod light;
 mod lower;
 pub mod mask;
+mod normal;
 mod object;
 mod pattern;
 mod placement;
+mod point_warp;
+mod ramp;
 mod scene;
 mod shape;
 mod texture;
@@ -36,13 +40,19 @@ mod texture;
 pub use crate::camera::{Camera, Projection};
 pub use crate::colour::{Colour, Rgb};
 pub use crate::finish::{Finish, Reflection};
+pub use crate::fog::{Fog, GroundFog};
 pub use crate::interior::Interior;
-pub use crate::light::{Fade, Light, LightKind};
+pub use crate::light::{AreaLight, Fade, Light, LightKind};
 pub use crate::lower::{Look, LookId, LowerError, LowerErrorKind, Lowered};
+pub use crate::normal::{Height, Normal, NormalBody, Push};
 pub use crate::object::{Flags, Object, Place};
-pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
+pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
-pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
+pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
+pub use crate::ramp::{
+    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples,
+};
+pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,
     Spline, StraightSweep, Sweep,

@@ -1,6 +1,6 @@
 //! Light sources.
 
-use durer_math::{Affine, Point3};
+use durer_math::{Affine, Point3, Vec3};
 
 use crate::Rgb;
 
@@ -21,6 +21,23 @@ pub struct Light {
     pub shadowless: bool,
     /// How the light fades with the distance.
     pub fade: Option<Fade>,
+    /// The extent of the light, for soft shadows; `None` for a point.
+    pub area: Option<AreaLight>,
+}
+
+/// A grid of points, all of which throw shadows. All other light comes from the location alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaLight {
+    /// The two sides of the grid, whose middle is the location.
+    pub sides: [Vec3; 2],
+    /// The numbers of points along them, 1 at least.
+    pub points: [u32; 2],
+    /// Whether the grid is bent to a disc.
+    pub circular: bool,
+    /// Whether it is turned towards each point that is lit.
+    pub orient: bool,
+    /// Only `2^level + 1` points are looked at along each side where their shadows agree.
+    pub adaptive: Option<u32>,
 }
 
 /// The shape of a light's beam.
@@ -69,6 +86,7 @@ impl Light {
             parallel: false,
             shadowless: false,
             fade: None,
+            area: None,
         }
     }
 
@@ -76,5 +94,8 @@ impl Light {
     pub fn transform(&mut self, map: &Affine) {
         self.location = map.point(self.location);
         self.point_at = map.point(self.point_at);
+        if let Some(area) = &mut self.area {
+            area.sides = area.sides.map(|side| map.vector(side));
+        }
     }
 }

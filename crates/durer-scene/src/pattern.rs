@@ -2,6 +2,8 @@
 
 use durer_math::Vec3;
 
+use crate::{PointWarp, Ramp};
+
 /// Selects or mixes entries `T` (colours, pigments or textures) by position.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern<T> {
@@ -19,27 +21,44 @@ pub enum Pattern<T> {
         /// Positions in the map with their entries, in the order written; not empty.
         entries: Vec<(f64, T)>,
     },
-    /// Everywhere the mean of all entries.
-    Mean(Vec<T>),
+    /// Everywhere the mean of all entries, each with its weight.
+    Mean(Vec<(f64, T)>),
+    /// Another pattern, seen through maps of the point, which need not be affine.
+    Warped {
+        /// The maps, in the order in which they are applied to the point.
+        warps: Vec<PointWarp>,
+        /// The pattern.
+        pattern: Box<Pattern<T>>,
+    },
 }
 
 impl<T> Pattern<T> {
     /// The entries, in the order written.
     pub fn entries(&self) -> impl Iterator<Item = &T> {
-        let (cells, map) = match self {
-            Self::Cells { entries, .. } | Self::Mean(entries) => (&entries[..], &[][..]),
-            Self::Map { entries, .. } => (&[][..], &entries[..]),
+        let (cells, map) = match self.plain() {
+            Self::Cells { entries, .. } => (&entries[..], &[][..]),
+            Self::Map { entries, .. } | Self::Mean(entries) => (&[][..], &entries[..]),
+            Self::Warped { .. } => (&[][..], &[][..]),
         };
         cells.iter().chain(map.iter().map(|(_, entry)| entry))
     }
 
     /// Whether there are fewer entries than kinds.
     pub fn lacks_entries(&self) -> bool {
-        match self {
+        match self.plain() {
             Self::Cells { cells, entries } => entries.len() < cells.kinds(),
-            Self::Map { entries, .. } => entries.is_empty(),
-            Self::Mean(entries) => entries.is_empty(),
+            Self::Map { entries, .. } | Self::Mean(entries) => entries.is_empty(),
+            Self::Warped { .. } => true,
         }
+    }
+
+    /// The pattern behind all warps.
+    fn plain(&self) -> &Self {
+        let mut plain = self;
+        while let Self::Warped { pattern, .. } = plain {
+            plain = pattern;
+        }
+        plain
     }
 }
 
@@ -57,6 +76,10 @@ pub enum Cells {
         /// The width of the joints.
         mortar: f64,
     },
+    /// Endless square columns along y with sides of length 1, in four kinds.
+    Square,
+    /// Endless triangular columns along y with sides of length 1, in six kinds.
+    Triangular,
 }
 
 impl Cells {
@@ -65,16 +88,18 @@ impl Cells {
         match self {
             Self::Checker | Self::Brick { .. } => 2,
             Self::Hexagon => 3,
+            Self::Square => 4,
+            Self::Triangular => 6,
         }
     }
 }
 
 /// A number at each point, from 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     /// The function that the number grows with.
     pub ramp: Ramp,
-    /// The number of waves in each unit of the ramp.
+    /// The number of waves in each unit of the ramp. 0 leaves the ramp as it is.
     pub frequency: f64,
     /// The shift of the wave.
     pub phase: f64,
@@ -87,13 +112,6 @@ impl Value {
     pub fn new(ramp: Ramp) -> Self {
         Self { ramp, frequency: 1.0, phase: 0.0, wave: Wave::Ramp }
     }
-}
-
-/// The function that a continuous pattern grows with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ramp {
-    /// From 0 to 1 in each unit along a direction (of any length but zero), then from 0 again.
-    Gradient(Vec3),
 }
 
 /// The waveform: it maps a number `w` from 0 to 1 to another.

@@ -1,6 +1,6 @@
 //! The scene as a whole, and its settings.
 
-use crate::{Camera, Colour, Light, Object, Rgb};
+use crate::{Camera, Colour, Fog, Light, Object, Pigment, Rgb};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,6 +13,10 @@ pub struct Scene {
     pub camera: Option<Camera>,
     /// The colour that rays without a hit see.
     pub background: Background,
+    /// What rays without a hit see in front of the background.
+    pub sky: Option<SkySphere>,
+    /// All fog.
+    pub fogs: Vec<Fog>,
     /// The scene's own settings.
     pub settings: Settings,
 }
@@ -26,6 +30,16 @@ impl Default for Background {
     fn default() -> Self {
         Self(Colour { rgb: Rgb::BLACK, filter: 0.0, transmit: 1.0 })
     }
+}
+
+/// Pigments at an infinite distance: the point of a pigment that a ray sees is its direction, scaled
+/// to length 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkySphere {
+    /// The layers, the lowest first. A layer lets pass what lies behind it as a surface's does.
+    pub pigments: Vec<Pigment>,
+    /// The factor of their colours.
+    pub emission: Rgb,
 }
 
 /// The scene's own settings.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Affine, AffineError};
 use durer_surfaces::Blob;
 
-use crate::{Colour, Finish, Pattern, Placement, Rgb};
+use crate::{Colour, Finish, Normal, Pattern, Placement, Rgb};
 
 /// The look of a surface: layers, or a pattern of textures.
 ///
@@ -60,12 +60,14 @@ pub struct Layer {
     pub pigment: Pigment,
     /// How it reflects and scatters light.
     pub finish: Arc<Finish>,
+    /// How the surface's normals are perturbed, if they are.
+    pub normal: Option<Arc<Normal>>,
 }
 
 impl Texture {
     /// Makes a texture of a single layer.
     pub fn plain(pigment: Pigment, finish: impl Into<Arc<Finish>>) -> Self {
-        Self::layers(vec![Layer { pigment, finish: finish.into() }])
+        Self::layers(vec![Layer { pigment, finish: finish.into(), normal: None }])
     }
 
     /// Makes a texture of several layers, from the innermost to the outermost.
@@ -105,7 +107,7 @@ impl Texture {
     pub fn is_uniform(&self) -> bool {
         match &self.body {
             TextureBody::Layers(layers) => {
-                layers.iter().all(|l| matches!(l.pigment.body, PigmentBody::Solid(_)))
+                layers.iter().all(|l| l.normal.is_none() && matches!(l.pigment.body, PigmentBody::Solid(_)))
             }
             TextureBody::Pattern(_) | TextureBody::Fields(_) => false,
         }

@@ -273,9 +273,9 @@ impl Sum<f64> {
     }
 }
 
-/// The noise of eight points, rounded.
+/// The noise of eight points, rounded: about zero, from -1 to 1.
 #[inline(never)]
-pub(crate) fn values(p: [&F8; 3]) -> F8 {
+pub fn values(p: [&F8; 3]) -> F8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
         || F8(Sum::at(p).v.0),

@@ -12,6 +12,7 @@ mod shapes;
 mod sweep;
 mod swept;
 mod terrain;
+mod text;
 
 use std::rc::Rc;
 
@@ -273,6 +274,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | HeightField
             | Torus
             | Prism
+            | Text
             | SphereSweep
             | Sor
             | Lathe

@@ -72,6 +72,7 @@ impl Parser<'_> {
                     self.switch_value()?;
                 }
                 Keyword::Photons => self.skip_photons()?,
+                Keyword::Radiosity => self.leave_out(Keyword::Radiosity, lexeme.place)?,
                 Keyword::ClippedBy => {
                     let parts = self.cutters(&object.bounds, Keyword::BoundedBy)?;
                     object.clips.extend(parts);
@@ -86,7 +87,7 @@ impl Parser<'_> {
     }
 
     /// How an object takes part in photon mapping says nothing while there is none.
-    fn skip_photons(&mut self) -> Result<()> {
+    pub(crate) fn skip_photons(&mut self) -> Result<()> {
         let braces = self.braces;
         self.expect(Mark::BraceOpen)?;
         self.skip_to_brace_level(braces)
@@ -153,7 +154,7 @@ impl Parser<'_> {
         Ok(true)
     }
 
-    /// What may be said of a texture where it is part of an object: itself, another one on it, or its pigment or finish.
+    /// What may be said of a texture where it is part of an object: itself, another one on it, or its pigment, normal or finish.
     pub(super) fn texture_item(&mut self, texture: &mut Option<Rc<Texture>>) -> Result<bool> {
         match self.peek()? {
             Item::Word(Keyword::Texture) => {
@@ -164,7 +165,7 @@ impl Parser<'_> {
                     Some(below) => self.laid_on(below, next)?,
                 }));
             }
-            Item::Word(Keyword::Pigment | Keyword::Finish) => {
+            Item::Word(Keyword::Pigment | Keyword::Normal | Keyword::Finish) => {
                 let base = || Rc::new(Texture::single((*self.defaults).clone()));
                 let mut changed = texture.take().unwrap_or_else(base);
                 self.layer_item(Rc::make_mut(&mut changed))?;

@@ -149,6 +149,7 @@ impl Parser<'_> {
                 }
             }
             Keyword::Prism => self.prism(place)?,
+            Keyword::Text => self.text(place)?,
             Keyword::SphereSweep => self.sphere_sweep(place)?,
             Keyword::Sor => self.sor()?,
             Keyword::Lathe => self.lathe(place)?,

@@ -128,6 +128,7 @@ impl Parser<'_> {
                 Keyword::ConserveEnergy => finish.conserve_energy = self.switch_value()?,
                 Keyword::ReflectionExponent => finish.reflection.exponent = self.exponent()?,
                 Keyword::Reflection => self.reflection(&mut finish.reflection)?,
+                Keyword::Subsurface => self.leave_out(keyword, place)?,
                 _ => return Err(self.unexpected(&lexeme, "a part of a finish")),
             }
             self.skip_comma()?;

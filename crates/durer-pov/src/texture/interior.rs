@@ -60,6 +60,7 @@ impl Parser<'_> {
                     interior.fade_color = [r, g, b];
                 }
                 Item::Word(Keyword::Caustics) => interior.caustics = self.float()?,
+                Item::Word(Keyword::Media) => self.leave_out(Keyword::Media, lexeme.place)?,
                 // The samples of dispersion have no effect without dispersion.
                 Item::Word(Keyword::DispersionSamples) => drop(self.float()?),
                 Item::Word(Keyword::Dispersion) => {

@@ -43,11 +43,15 @@ impl<T> Map<T> {
 const DEEPEST: u32 = 32;
 
 impl Parser<'_> {
-    /// Reads entries `[value item]` in braces.
-    fn map_entries<T>(&mut self, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<(f64, T)>> {
+    /// Reads entries `[value item]` in braces. In the map of a mean the value may be left out.
+    pub(crate) fn map_entries<T>(
+        &mut self,
+        is_mean: bool,
+        mut item: impl FnMut(&mut Self) -> Result<T>,
+    ) -> Result<Vec<(f64, T)>> {
         let mut entries = Vec::new();
         while self.take_mark(Mark::SquareOpen)? {
-            let value = self.float()?;
+            let value = if is_mean && !self.starts_number()? { 1.0 } else { self.float()? };
             self.skip_comma()?;
             entries.push((value, item(self)?));
             self.expect(Mark::SquareClose)?;
@@ -74,7 +78,7 @@ impl Parser<'_> {
         Ok(depth)
     }
 
-    fn end_of_map(&mut self, empty: bool) -> Result<()> {
+    pub(crate) fn end_of_map(&mut self, empty: bool) -> Result<()> {
         let place = self.here();
         self.expect(Mark::BraceClose)?;
         if empty { Err(Error::invalid(place, "this map has no entries")) } else { Ok(()) }
@@ -112,7 +116,7 @@ impl Parser<'_> {
     }
 
     /// Reads what follows `pigment_map`.
-    pub(crate) fn pigment_map_block(&mut self) -> Result<Rc<Map<super::Pigment>>> {
+    pub(crate) fn pigment_map_block(&mut self, is_mean: bool) -> Result<Rc<Map<super::Pigment>>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::PigmentMap(known)) = self.peek()? {
             let known = known.clone();
@@ -122,14 +126,14 @@ impl Parser<'_> {
         }
         let base = self.defaults.clone();
         let entries =
-            self.map_entries(|r| r.nested(|r| r.pigment_items(&base.pigment, Mark::SquareClose)))?;
+            self.map_entries(is_mean, |r| r.nested(|r| r.pigment_items(&base.pigment, Mark::SquareClose)))?;
         self.end_of_map(entries.is_empty())?;
         let depth = 1 + entries.iter().map(|(_, pigment)| pigment.depth()).max().unwrap_or(0);
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
     }
 
     /// Reads what follows `texture_map`.
-    pub(crate) fn texture_map_block(&mut self) -> Result<Rc<Map<Texture>>> {
+    pub(crate) fn texture_map_block(&mut self, is_mean: bool) -> Result<Rc<Map<Texture>>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::TextureMap(known)) = self.peek()? {
             let known = known.clone();
@@ -137,7 +141,7 @@ impl Parser<'_> {
             self.expect(Mark::BraceClose)?;
             return Ok(known);
         }
-        let entries = self.map_entries(Self::texture_entry)?;
+        let entries = self.map_entries(is_mean, Self::texture_entry)?;
         self.end_of_map(entries.is_empty())?;
         let depth = 1 + entries.iter().map(|(_, texture)| texture.depth()).max().unwrap_or(0);
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
@@ -184,10 +188,10 @@ impl Parser<'_> {
     }
 
     /// Reads `texture_map {}` inside a patterned texture.
-    pub(crate) fn texture_map_item(&mut self, map: &mut Rc<Map<Texture>>) -> Result<bool> {
+    pub(crate) fn texture_map_item(&mut self, is_mean: bool, map: &mut Rc<Map<Texture>>) -> Result<bool> {
         let here = self.take_word(Keyword::TextureMap)?;
         if here {
-            *map = self.nested(Self::texture_map_block)?;
+            *map = self.nested(|r| r.texture_map_block(is_mean))?;
         }
         Ok(here)
     }

@@ -3,8 +3,11 @@
 mod finish;
 mod interior;
 mod maps;
+mod normal;
 mod pattern;
 mod pigment;
+mod ramps;
+mod warps;
 
 use std::rc::Rc;
 
@@ -18,6 +21,7 @@ use crate::value::Value;
 pub(crate) use finish::Finish;
 pub(crate) use interior::{Interior, Material};
 pub(crate) use maps::{ColorMap, Map};
+pub(crate) use normal::{Normal, NormalKind, SlopeMap};
 pub(crate) use pattern::{Pattern, PatternKind, Wave};
 pub(crate) use pigment::{Body, Paint, Pigment};
 
@@ -26,6 +30,17 @@ pub(crate) use pigment::{Body, Paint, Pigment};
 pub(crate) struct Layer {
     pub(crate) pigment: Pigment,
     pub(crate) finish: Finish,
+    pub(crate) normal: Option<Rc<Normal>>,
+}
+
+impl Layer {
+    /// Transforms the layer.
+    fn transform(&mut self, by: &Matrix) {
+        self.pigment.transform(by);
+        if let Some(normal) = &mut self.normal {
+            Rc::make_mut(normal).transform(by);
+        }
+    }
 }
 
 /// A whole texture.
@@ -49,7 +64,7 @@ impl Texture {
     /// Transforms the texture.
     pub(crate) fn transform(&mut self, by: &Matrix) {
         match self {
-            Self::Layers(layers) => layers.iter_mut().for_each(|layer| layer.pigment.transform(by)),
+            Self::Layers(layers) => layers.iter_mut().for_each(|layer| layer.transform(by)),
             Self::Patterned { pattern, .. } => pattern.modifiers.transform(by),
         }
     }
@@ -119,13 +134,22 @@ impl Parser<'_> {
             if self.layer_item(&mut texture)? {
                 continue;
             }
+            if self.take_word(Keyword::NoBumpScale)? {
+                let keeps_slope = self.switch_value()?;
+                if let Texture::Layers(layers) = &mut texture {
+                    for normal in layers.iter_mut().filter_map(|layer| layer.normal.as_mut()) {
+                        Rc::make_mut(normal).keeps_slope = keeps_slope;
+                    }
+                }
+                continue;
+            }
             if let Some(kind) = self.pattern_kind(None)? {
                 texture = self.patterned_texture(kind)?;
                 continue;
             }
             if let Texture::Patterned { pattern, map } = &mut texture
                 && (self.pattern_modifier(Some(&mut pattern.kind), &mut pattern.modifiers)?
-                    || self.texture_map_item(map)?)
+                    || self.texture_map_item(pattern.kind == PatternKind::Average, map)?)
             {
                 continue;
             }
@@ -143,22 +167,25 @@ impl Parser<'_> {
         Ok(texture)
     }
 
-    /// Reads a pigment or finish into the top layer of `texture`.
+    /// Reads a pigment, normal or finish into the top layer of `texture`.
     pub(crate) fn layer_item(&mut self, texture: &mut Texture) -> Result<bool> {
         enum Part {
             Pigment,
+            Normal,
             Finish,
         }
         let (part, word) = match self.peek()? {
             Item::Word(Keyword::Pigment) => (Part::Pigment, true),
+            Item::Word(Keyword::Normal) => (Part::Normal, true),
             Item::Word(Keyword::Finish) => (Part::Finish, true),
             Item::Value(Value::Pigment(_)) => (Part::Pigment, false),
+            Item::Value(Value::Normal(_)) => (Part::Normal, false),
             Item::Value(Value::Finish(_)) => (Part::Finish, false),
             _ => return Ok(false),
         };
         let place = self.here();
         let Texture::Layers(layers) = texture else {
-            return Err(Error::invalid(place, "a patterned texture has no pigment or finish of its own"));
+            return Err(Error::invalid(place, "a patterned texture has no pigment, normal or finish of its own"));
         };
         let Some(top) = layers.last_mut() else { return Ok(false) };
         match part {
@@ -166,12 +193,18 @@ impl Parser<'_> {
                 self.next()?;
                 top.pigment = self.nested(|r| r.pigment_block(&top.pigment))?;
             }
+            Part::Normal if word => {
+                self.next()?;
+                let base = top.normal.take().map_or_else(Normal::default, Rc::unwrap_or_clone);
+                top.normal = Some(Rc::new(self.nested(|r| r.normal_block(&base))?));
+            }
             Part::Finish if word => {
                 self.next()?;
                 top.finish = self.nested(|r| r.finish_block(&top.finish))?;
             }
             _ => match self.next()?.item {
                 Item::Value(Value::Pigment(known)) => top.pigment = (*known).clone(),
+                Item::Value(Value::Normal(known)) => top.normal = Some(known),
                 Item::Value(Value::Finish(known)) => top.finish = (*known).clone(),
                 _ => {}
             },
@@ -195,7 +228,7 @@ impl Parser<'_> {
                 match &lexeme.item {
                     Item::Mark(Mark::BraceClose) => break,
                     Item::Word(Keyword::Camera) => self.default_camera_item()?,
-                    _ => return Err(self.unexpected(&lexeme, "texture, pigment, finish or camera")),
+                    _ => return Err(self.unexpected(&lexeme, "texture, pigment, normal, finish or camera")),
                 }
             }
             match &texture {

@@ -10,26 +10,45 @@ use crate::pattern_function;
 use crate::transform::{self, Matrix};
 
 /// The kind of a pattern, with its own numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PatternKind {
     Checker,
     Hexagon,
+    Square,
+    Triangular,
     Brick {
         size: [f64; 3],
         mortar: f64,
     },
     Gradient([f64; 3]),
-    /// A pattern that only functions support: its word, and the place of that.
+    /// A pattern without numbers of its own: its word, and the place of that.
     Written(Keyword, Place),
+    /// A pattern with numbers of its own, and the place of its word.
+    Ramp(Rc<durer_scene::Ramp>, Place),
+    /// The grey value of a pigment.
+    GreyOf(Rc<super::Pigment>),
+    /// The mean of all entries of a map.
+    Average,
 }
 
 impl PatternKind {
     /// The number of entries of its list; `None` for patterns with a map.
-    pub(crate) fn list_length(self) -> Option<usize> {
+    pub(crate) fn list_length(&self) -> Option<usize> {
         match self {
             Self::Checker | Self::Brick { .. } => Some(2),
             Self::Hexagon => Some(3),
-            Self::Gradient(_) | Self::Written(..) => None,
+            Self::Square => Some(4),
+            Self::Triangular => Some(6),
+            Self::Gradient(_) | Self::Written(..) | Self::Ramp(..) | Self::GreyOf(_) | Self::Average => None,
+        }
+    }
+
+    /// Whether the pattern uses turbulence in its own way.
+    pub(crate) fn stirs_itself(&self) -> bool {
+        match self {
+            Self::Written(word, _) => matches!(word, Keyword::Marble | Keyword::Wood),
+            Self::Ramp(ramp, _) => matches!(**ramp, durer_scene::Ramp::Spiral { .. }),
+            _ => false,
         }
     }
 }
@@ -54,6 +73,8 @@ pub(crate) struct PatternModifiers {
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
     pub(crate) turbulence: Rc<Turbulence>,
+    /// The warps in the order of the text, each with the placement of what it warps.
+    pub(crate) warps: Rc<Vec<(Matrix, durer_scene::PointWarp)>>,
     /// The map from the pattern's own space to the object's.
     pub(crate) place: Matrix,
 }
@@ -65,6 +86,7 @@ impl Default for PatternModifiers {
             phase: 0.0,
             wave: Wave::Ramp,
             turbulence: Rc::default(),
+            warps: Rc::default(),
             place: Matrix::IDENTITY,
         }
     }
@@ -73,12 +95,17 @@ impl Default for PatternModifiers {
 impl PatternModifiers {
     /// Applies what the word of a pattern changes by itself; the rest stays as it was (a fact of
     /// the language).
-    pub(crate) fn begin(&mut self, kind: PatternKind) {
+    pub(crate) fn begin(&mut self, kind: &PatternKind) {
         if kind.list_length().is_some() {
             self.frequency = 0.0;
         }
         if let PatternKind::Written(word, _) = kind {
-            self.wave = pattern_function::own_wave(word).unwrap_or(self.wave);
+            self.wave = pattern_function::own_wave(*word).unwrap_or(self.wave);
+        }
+        if let PatternKind::Ramp(ramp, _) = kind
+            && matches!(**ramp, durer_scene::Ramp::Spiral { .. })
+        {
+            self.wave = Wave::Triangle;
         }
     }
 
@@ -102,12 +129,18 @@ impl Pattern {
     }
 }
 
+/// The greatest number of warps of a pattern; scenes use a few.
+const MOST_WARPS: usize = 256;
+
 impl Parser<'_> {
     /// Reads the word of a pattern, if one comes next; `base` is the pattern that it replaces.
     pub(crate) fn pattern_kind(&mut self, base: Option<PatternKind>) -> Result<Option<PatternKind>> {
         let kind = match self.peek_word()? {
             Some(Keyword::Checker) => PatternKind::Checker,
             Some(Keyword::Hexagon) => PatternKind::Hexagon,
+            Some(Keyword::Square) => PatternKind::Square,
+            Some(Keyword::Triangular) => PatternKind::Triangular,
+            Some(Keyword::Average) => PatternKind::Average,
             Some(Keyword::Brick) => match base {
                 Some(bricks @ PatternKind::Brick { .. }) => bricks,
                 _ => PatternKind::Brick { size: [8.0, 3.0, 4.5], mortar: 0.5 },
@@ -122,7 +155,7 @@ impl Parser<'_> {
                 return Ok(Some(PatternKind::Gradient(direction)));
             }
             Some(word) if pattern_function::is_written(word) => PatternKind::Written(word, self.here()),
-            _ => return Ok(None),
+            _ => return self.ramp_kind(),
         };
         self.next()?;
         Ok(Some(kind))
@@ -132,12 +165,12 @@ impl Parser<'_> {
     pub(crate) fn plain_pattern(&self, kind: PatternKind) -> Pattern {
         let mut modifiers = PatternModifiers::default();
         self.set_noise_generator(&mut modifiers);
-        modifiers.begin(kind);
+        modifiers.begin(&kind);
         Pattern { kind, modifiers }
     }
 
     /// Gives the pattern the scene's noise generator.
-    pub(super) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
+    pub(crate) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
         let generator = self.language.noise_generator();
         if modifiers.turbulence.generator != generator {
             Rc::make_mut(&mut modifiers.turbulence).generator = generator;
@@ -148,9 +181,12 @@ impl Parser<'_> {
     /// brick's sizes.
     pub(crate) fn pattern_modifier(
         &mut self,
-        kind: Option<&mut PatternKind>,
+        mut kind: Option<&mut PatternKind>,
         modifiers: &mut PatternModifiers,
     ) -> Result<bool> {
+        if self.ramp_modifier(kind.as_deref_mut())? {
+            return Ok(true);
+        }
         let Some(keyword) = self.peek_word()? else { return Ok(false) };
         let place = self.here();
         let wave = match keyword {
@@ -221,11 +257,19 @@ impl Parser<'_> {
                 let generator = if said == 0.0 { self.language.noise_generator() } else { said };
                 Rc::make_mut(&mut modifiers.turbulence).generator = generator;
             }
+            Keyword::Warp => {
+                let warp = self.nested(Self::pattern_warp)?;
+                if modifiers.warps.len() >= MOST_WARPS {
+                    let text = format!("a pattern has at most {MOST_WARPS} warps");
+                    return Err(Error::invalid(place, text));
+                }
+                let before = std::mem::replace(&mut modifiers.place, Matrix::IDENTITY);
+                Rc::make_mut(&mut modifiers.warps).push((before, warp));
+            }
             Keyword::Turbulence => {
                 self.next()?;
                 let turbulence = Rc::make_mut(&mut modifiers.turbulence);
                 turbulence.amount = self.vector()?;
-                turbulence.at = (!turbulence.is_none()).then_some(place);
             }
             _ => return Ok(false),
         }

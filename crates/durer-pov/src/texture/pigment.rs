@@ -33,7 +33,7 @@ pub(crate) struct Pigment {
 }
 
 /// The contents of a pigment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Body {
     /// One colour.
     Solid(Colour),
@@ -58,7 +58,7 @@ impl Pigment {
     }
 
     /// The entries for the pattern `kind` of this pigment.
-    pub(crate) fn paint(&self, kind: PatternKind) -> Paint {
+    pub(crate) fn paint(&self, kind: &PatternKind) -> Paint {
         self.paint.clone().unwrap_or_else(|| {
             let opaque = |&(at, [r, g, b]): &(f64, [f64; 3])| (at, [r, g, b, 0.0, 0.0]);
             let entries = default_map(kind).iter().map(opaque).collect();
@@ -68,16 +68,20 @@ impl Pigment {
 
     /// The nesting depth of maps.
     pub(crate) fn depth(&self) -> u32 {
-        match (&self.paint, self.body) {
-            (Some(Paint::Pigments(map)), _) => map.depth,
-            (_, Body::Solid(_)) => 0,
-            (_, Body::Patterned(_)) => 1,
+        let own = match &self.body {
+            Body::Solid(_) => 0,
+            Body::Patterned(PatternKind::GreyOf(pigment)) => 1 + pigment.depth(),
+            Body::Patterned(_) => 1,
+        };
+        match &self.paint {
+            Some(Paint::Pigments(map)) => map.depth.max(own),
+            _ => own,
         }
     }
 
     /// The current pattern, if there is one.
-    fn kind(&self) -> Option<PatternKind> {
-        match self.body {
+    fn kind(&self) -> Option<&PatternKind> {
+        match &self.body {
             Body::Solid(_) => None,
             Body::Patterned(kind) => Some(kind),
         }
@@ -85,19 +89,30 @@ impl Pigment {
 }
 
 /// The default colours of a list, where the text leaves them out.
-fn default_list(kind: PatternKind) -> Vec<Colour> {
+fn default_list(kind: &PatternKind) -> Vec<Colour> {
     let opaque = |r, g, b| [r, g, b, 0.0, 0.0];
     match kind {
         PatternKind::Checker => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0)],
         PatternKind::Hexagon => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0), opaque(1.0, 0.0, 0.0)],
         PatternKind::Brick { .. } => vec![opaque(0.5, 0.5, 0.5), opaque(0.6, 0.15, 0.15)],
-        PatternKind::Gradient(_) | PatternKind::Written(..) => Vec::new(),
+        PatternKind::Square => {
+            vec![opaque(1.0, 0.0, 0.0), opaque(0.0, 1.0, 0.0), opaque(0.0, 0.0, 1.0), opaque(1.0, 1.0, 0.0)]
+        }
+        PatternKind::Triangular => vec![
+            opaque(1.0, 0.0, 0.0),
+            opaque(0.0, 1.0, 0.0),
+            opaque(0.0, 0.0, 1.0),
+            opaque(1.0, 1.0, 0.0),
+            opaque(0.0, 1.0, 1.0),
+            opaque(1.0, 0.0, 1.0),
+        ],
+        _ => Vec::new(),
     }
 }
 
 /// The default map, where the text leaves it out, as in POV-Ray: for most patterns from black to
 /// white.
-fn default_map(kind: PatternKind) -> &'static [(f64, [f64; 3])] {
+fn default_map(kind: &PatternKind) -> &'static [(f64, [f64; 3])] {
     match kind {
         PatternKind::Written(Keyword::Marble, _) => &[
             (0.0, [0.9, 0.8, 0.8]),
@@ -162,7 +177,7 @@ impl Parser<'_> {
                 continue;
             }
             let place = self.here();
-            let pattern = self.pattern_kind(pigment.kind())?;
+            let pattern = self.pattern_kind(pigment.kind().cloned())?;
             let solid = pattern.is_none() && self.starts_colour()?;
             if chosen && (pattern.is_some() || solid) {
                 return Err(Error::invalid(place, "this pigment has its colour or pattern already"));
@@ -172,11 +187,11 @@ impl Parser<'_> {
                 if pigment.kind().is_none() {
                     self.set_noise_generator(&mut pigment.modifiers);
                 }
-                pigment.body = Body::Patterned(kind);
-                pigment.modifiers.begin(kind);
-                if let Some(list) = self.list(kind)? {
+                pigment.modifiers.begin(&kind);
+                if let Some(list) = self.list(&kind)? {
                     pigment.paint = Some(list);
                 }
+                pigment.body = Body::Patterned(kind);
                 continue;
             }
             if solid {
@@ -190,7 +205,7 @@ impl Parser<'_> {
             if self.pattern_modifier(kind, &mut pigment.modifiers)? {
                 continue;
             }
-            if let Some(kind) = pigment.kind()
+            if let Body::Patterned(kind) = &pigment.body
                 && self.paint_item(kind, &mut pigment.paint)?
             {
                 continue;
@@ -216,7 +231,7 @@ impl Parser<'_> {
 
     /// Reads the colours or pigments after the word of a discrete pattern; `None` for patterns with
     /// a map.
-    fn list(&mut self, kind: PatternKind) -> Result<Option<Paint>> {
+    fn list(&mut self, kind: &PatternKind) -> Result<Option<Paint>> {
         let Some(length) = kind.list_length() else { return Ok(None) };
         if self.peek_word()? == Some(Keyword::Pigment) {
             let base = self.defaults.clone();
@@ -243,7 +258,7 @@ impl Parser<'_> {
     }
 
     /// Reads a map inside a patterned pigment.
-    fn paint_item(&mut self, kind: PatternKind, paint: &mut Option<Paint>) -> Result<bool> {
+    fn paint_item(&mut self, kind: &PatternKind, paint: &mut Option<Paint>) -> Result<bool> {
         let keyword = match self.peek_word()? {
             Some(keyword @ (Keyword::ColorMap | Keyword::PigmentMap)) => keyword,
             _ => return Ok(false),
@@ -254,9 +269,13 @@ impl Parser<'_> {
         }
         self.next()?;
         *paint = Some(if keyword == Keyword::ColorMap {
+            if *kind == PatternKind::Average {
+                return Err(Error::invalid(self.here(), "average needs a pigment_map"));
+            }
             Paint::Colors(self.nested(Self::color_map_block)?)
         } else {
-            Paint::Pigments(self.nested(Self::pigment_map_block)?)
+            let is_mean = *kind == PatternKind::Average;
+            Paint::Pigments(self.nested(|r| r.pigment_map_block(is_mean))?)
         });
         Ok(true)
     }

@@ -6,9 +6,11 @@
 //! has two screen vectors: `sx` from the middle of the picture to the middle of its right side, and
 //! `sy` to the middle of its *lower* side.
 
+mod curved;
 mod orthographic;
 mod perspective;
 
+pub use self::curved::Curved;
 pub use self::orthographic::Orthographic;
 pub use self::perspective::Perspective;
 
@@ -31,13 +33,15 @@ pub enum CameraError {
     Zero(&'static str),
 }
 
-/// A camera of either kind.
+/// A camera of any kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Camera {
     /// A pinhole camera: all rays start at one point.
     Perspective(Perspective),
     /// A camera with parallel rays: all rays have one direction.
     Orthographic(Orthographic),
+    /// A camera whose picture is not a plane.
+    Curved(Curved),
 }
 
 impl Camera {
@@ -48,6 +52,7 @@ impl Camera {
         Ok(match camera.projection {
             Projection::Perspective => Self::Perspective(Perspective::new(o, f, sx, sy)?),
             Projection::Orthographic => Self::Orthographic(Orthographic::new(o, f, sx, sy)?),
+            _ => Self::Curved(Curved::new(camera)?),
         })
     }
 
@@ -57,6 +62,7 @@ impl Camera {
         match self {
             Self::Perspective(camera) => camera.ray(px, py),
             Self::Orthographic(camera) => camera.ray(px, py),
+            Self::Curved(camera) => camera.ray(px, py),
         }
     }
 
@@ -66,6 +72,7 @@ impl Camera {
         match self {
             Self::Perspective(camera) => sum(camera.origin().to_vec()),
             Self::Orthographic(camera) => camera.start_terms().map(sum).into_iter().sum(),
+            Self::Curved(camera) => camera.start_terms().map(sum).into_iter().sum(),
         }
     }
 
@@ -77,6 +84,7 @@ impl Camera {
         match self {
             Self::Perspective(camera) => camera.rays(px, py),
             Self::Orthographic(camera) => camera.rays(px, py),
+            Self::Curved(camera) => camera.rays(px, py),
         }
     }
 

@@ -5,8 +5,8 @@ use super::record::Record;
 use super::shading_point::Spot;
 use super::shadow::Shadows;
 use crate::lanes::Rgb8;
-use crate::light::{Beamed, RenderLight};
-use crate::material::{Finish, Incidence};
+use crate::light::{Area, Beamed, RenderLight};
+use crate::material::{Finish, Incidence, View};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::dot;
@@ -27,6 +27,8 @@ pub(super) struct Lamps<'w> {
 #[derive(Clone, Copy)]
 struct Falling {
     at: Incidence,
+    /// The points that the light can reach as far as its beam and the unperturbed surface tell.
+    lit: M8,
     /// The factor of the light's colour.
     strength: F8,
     /// The points whose way to the light can be blocked.
@@ -55,9 +57,12 @@ impl<'w> Lamps<'w> {
             // compiler mixes the lanes.
             self.fall(isa, lamp, (double, behind), spots);
             for (k, finish) in coats.finishes.iter().enumerate() {
+                if let Some(views) = coats.bent(k) {
+                    self.turn(views, (double, behind));
+                }
                 self.scatter(isa, finish, coats.lit(k));
                 if finish.shines() && !lamp.shadowless {
-                    self.highlight(isa, finish, coats.lit(k), spots);
+                    self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
                 }
             }
             self.aim(isa, lamp, spots);
@@ -66,7 +71,10 @@ impl<'w> Lamps<'w> {
                 let places = self.shadows.places(spots.len());
                 self.unblocked.extend(places.map(|to| (*to.light, *to.target)));
             }
-            self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts);
+            match &lamp.area {
+                None => self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts),
+                Some(area) => self.soften((world, isa), area, media, spots, stop, counts),
+            }
             if let Some(record) = record {
                 record.light(node, number, spots, &self.unblocked, self.shadows.light());
             }
@@ -78,6 +86,67 @@ impl<'w> Lamps<'w> {
                     }
                 },
             );
+        }
+    }
+
+    /// Reduces the light by the shadows of all points of an area light. Where those looked at first
+    /// agree, the others are taken to agree too.
+    fn soften(
+        &mut self,
+        (world, isa): (&'w World, Isa),
+        area: &Area,
+        media: &[u32],
+        spots: &[Spot],
+        stop: &Progress<'_>,
+        counts: &mut RayCounts,
+    ) {
+        let full: Vec<Rgb8> = self.shadows.light().to_vec();
+        let (rays, targets) = self.shadows.rays_mut();
+        let mut needed: Vec<M8> = rays.iter().map(|rays| rays.live).collect();
+        let middles: Vec<Point3<F8>> = targets.to_vec();
+        // By the weights among all points, and among those looked at first.
+        let mut sums = vec![[Rgb8::BLACK; 2]; full.len()];
+        let mut range = vec![(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)); full.len()];
+        for number in 0..area.len() {
+            if number == area.first {
+                for (i, needed) in needed.iter_mut().enumerate() {
+                    let (least, most) = range[i];
+                    // The language compares the shadows of corners with this bound.
+                    let differ = (full[i].luminance() * 0.1).lt(most - least);
+                    *needed &= differ;
+                }
+                if !needed.iter().any(|needed| needed.any()) {
+                    break;
+                }
+            }
+            self.shadows.light_mut().copy_from_slice(&full);
+            let (rays, targets) = self.shadows.rays_mut();
+            for (i, (rays, target)) in rays.iter_mut().zip(&mut *targets).enumerate() {
+                rays.live = needed[i];
+                if !rays.live.any() {
+                    continue;
+                }
+                *target = middles[i] + area.offset(number, self.falling[i].at.to_light);
+                let (origin, back) = spots[i].hits.start_towards(*target - spots[i].hits.p);
+                (rays.origin, rays.direction) = (origin, *target - origin);
+                (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
+            }
+            self.shadows.cast((world, isa), None, media, stop, counts);
+            for (i, light) in self.shadows.light().iter().enumerate() {
+                let light = light.kept(needed[i]);
+                for (sum, weight) in sums[i].iter_mut().zip(area.weights(number)) {
+                    *sum += light * F8::splat(weight);
+                }
+                let brightness = light.luminance();
+                let (least, most) = &mut range[i];
+                (*least, *most) = (least.min(brightness), most.max(brightness));
+            }
+        }
+        let blockable: Vec<M8> = self.falling.iter().map(|falling| falling.blockable).collect();
+        for (i, light) in self.shadows.light_mut().iter_mut().enumerate() {
+            let [all, first] = sums[i];
+            let soft = if area.first == area.len() { all } else { all.or(needed[i], first) };
+            *light = soft.or(blockable[i] & !full[i].is_black(), full[i]);
         }
     }
 
@@ -93,14 +162,27 @@ impl<'w> Lamps<'w> {
                     let Beamed { lit, to_light, strength, target, blockable } =
                         lamp.at(spot.hits.p, spot.live);
                     let cosine = dot(to_light, spot.view.normal);
-                    let lit = if behind { lit } else { lit & !cosine.le(F8::ZERO) };
-                    let live = lit & !strength.equals(F8::ZERO);
+                    let lit = lit & !strength.equals(F8::ZERO);
+                    let live = if behind { lit } else { lit & !cosine.le(F8::ZERO) };
                     let at = Incidence { live, to_light, cosine, double };
-                    falling.push(Falling { at, strength, blockable });
+                    falling.push(Falling { at, lit, strength, blockable });
                     (*to.light, *to.target) = (Rgb8::BLACK, target);
                 }
             },
         );
+    }
+
+    /// Computes how the light falls on the perturbed surface of a layer. No light comes through the
+    /// unperturbed surface.
+    fn turn(&mut self, (views, plain): (&[View], &[View]), (double, behind): (bool, bool)) {
+        for ((falling, view), plain) in self.falling.iter_mut().zip(views).zip(plain) {
+            let at = &mut falling.at;
+            let (own, of_plain) = (dot(at.to_light, view.normal), dot(at.to_light, plain.normal));
+            let together = (own * of_plain).gt(F8::ZERO) | M8::splat(double);
+            let in_front = M8::splat(behind) | !own.le(F8::ZERO);
+            at.cosine = own;
+            at.live = falling.lit & together & in_front;
+        }
     }
 
     /// Computes the part that a layer scatters.
@@ -110,7 +192,7 @@ impl<'w> Lamps<'w> {
             #[inline(always)]
             || {
                 for ((Falling { at, .. }, lit), to) in falling.iter().zip(lit).zip(places) {
-                    *to.light += lit.scattered * finish.scattered(at, lit.grain);
+                    *to.light += (lit.scattered * finish.scattered(at, lit.grain)).kept(at.live);
                 }
             },
         );
@@ -118,15 +200,23 @@ impl<'w> Lamps<'w> {
 
     /// Adds the highlights of a layer; on both sides if light from behind counts like light from
     /// the front.
-    fn highlight(&mut self, isa: Isa, finish: &Finish, lit: &[Lit], spots: &[Spot]) {
+    fn highlight(
+        &mut self,
+        isa: Isa,
+        finish: &Finish,
+        (lit, bent): (&[Lit], Option<(&[View], &[View])>),
+        spots: &[Spot],
+    ) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                for (((Falling { at, .. }, lit), spot), to) in falling.iter().zip(lit).zip(spots).zip(places)
+                for (i, (((Falling { at, .. }, lit), spot), to)) in
+                    falling.iter().zip(lit).zip(spots).zip(places).enumerate()
                 {
+                    let view = bent.map_or(&spot.view, |(views, _)| &views[i]);
                     let live = if at.double { at.live } else { at.live & (F8::ZERO).lt(at.cosine) };
-                    let shine = finish.highlight(&Incidence { live, ..*at }, &spot.view, lit.colour);
+                    let shine = finish.highlight(&Incidence { live, ..*at }, view, lit.colour);
                     *to.light += (lit.shine * shine).kept(live);
                 }
             },
@@ -140,9 +230,10 @@ impl<'w> Lamps<'w> {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                for ((Falling { at, strength, blockable }, spot), to) in falling.iter().zip(spots).zip(places)
+                for ((Falling { lit, strength, blockable, .. }, spot), to) in
+                    falling.iter().zip(spots).zip(places)
                 {
-                    let needed = at.live & !to.light.is_black();
+                    let needed = *lit & !to.light.is_black();
                     *to.light = (Rgb8::splat(lamp.colour) * *strength * *to.light).kept(needed);
                     let rays = to.rays;
                     rays.live = needed & *blockable;

@@ -11,9 +11,10 @@
 use super::media::Interface;
 use super::shading_point::Spot;
 use crate::lanes::{Colour8, Rgb8};
-use crate::material::{Finish, Mirror};
+use crate::material::{Finish, Mirror, View};
 use crate::sampler::random;
 use crate::texture::RenderLayer;
+use crate::vector::dot;
 use crate::world::World;
 use durer_math::{F8, Isa, M8};
 use durer_scene::Colour;
@@ -32,6 +33,12 @@ pub(super) struct Coats<'w> {
     pub(super) mirrors: Vec<&'w Mirror>,
     /// The data of these layers at each spot, in the same order.
     mirrored: Vec<Mirrored>,
+    /// The views of layers that scatter or reflect, in the same orders; empty if no layer has
+    /// perturbed normals.
+    lit_views: Vec<View>,
+    mirror_views: Vec<View>,
+    /// The views of the unperturbed surface; empty likewise.
+    plain: Vec<View>,
     /// The number of spots.
     spots: usize,
     /// The lanes of each spot that see the current layer.
@@ -80,6 +87,13 @@ impl<'w> Coats<'w> {
         self.mirrors.extend(finishes().filter_map(|f| f.mirror.as_deref()));
         self.lit.clear();
         self.mirrored.clear();
+        self.lit_views.clear();
+        self.mirror_views.clear();
+        self.plain.clear();
+        let is_bumpy = layers.iter().any(|coat| coat.normal.is_some());
+        if is_bumpy {
+            self.plain.extend(spots.iter().map(|spot| spot.view));
+        }
         self.spots = spots.len();
         self.live.resize(spots.len(), M8::NONE);
         self.paint.resize(spots.len(), Colour8::splat(Colour::default()));
@@ -104,6 +118,9 @@ impl<'w> Coats<'w> {
                     }
                 },
             );
+            if is_bumpy {
+                self.bend(coat, spots);
+            }
             coat.pigment.show(
                 isa,
                 spots.iter().zip(&self.live).map(|(s, &live)| (s.inside, live)),
@@ -119,6 +136,56 @@ impl<'w> Coats<'w> {
                 None => self.pass(isa, spots),
             }
         }
+        // What passes is bent by the normals of the outermost layer.
+        if let Some(top) = layers.last().filter(|_| is_bumpy) {
+            for ((spot, plain), live) in spots.iter_mut().zip(&self.plain).zip(&mut self.live) {
+                (spot.view, *live) = (*plain, spot.live);
+            }
+            self.perturb(top, spots);
+        }
+    }
+
+    /// Gives the spots the normals of a layer, and records their views.
+    fn bend(&mut self, coat: &RenderLayer, spots: &mut [Spot]) {
+        for (spot, plain) in spots.iter_mut().zip(&self.plain) {
+            spot.view = *plain;
+        }
+        self.perturb(coat, spots);
+        if coat.finish.is_lit {
+            self.lit_views.extend(spots.iter().map(|spot| spot.view));
+        }
+        if coat.finish.mirror.is_some() {
+            self.mirror_views.extend(spots.iter().map(|spot| spot.view));
+        }
+    }
+
+    /// Perturbs the normals of the spots.
+    fn perturb(&self, coat: &RenderLayer, spots: &mut [Spot]) {
+        let Some(normal) = &coat.normal else { return };
+        for (spot, &live) in spots.iter_mut().zip(&self.live) {
+            let view = &mut spot.view;
+            view.normal = normal.perturbed(spot.inside, view.normal, live);
+            view.cosine = (-dot(view.normal, view.eye)).max(F8::ZERO).min(F8::ONE);
+        }
+    }
+
+    /// The views of scattering layer `k`, and of the unperturbed surface, if normals are perturbed.
+    pub(super) fn bent(&self, k: usize) -> Option<(&[View], &[View])> {
+        let views = self.lit_views.get(k * self.spots..(k + 1) * self.spots)?;
+        (!self.plain.is_empty()).then_some((views, &self.plain))
+    }
+
+    /// The view of reflecting layer `k` at spot `i`, and of the unperturbed surface, if normals are
+    /// perturbed.
+    #[inline(always)]
+    pub(super) fn mirror_view(&self, i: usize, k: usize) -> Option<(&View, &View)> {
+        self.mirror_views.get(k * self.spots + i).zip(self.plain.get(i))
+    }
+
+    /// The view of the unperturbed surface at spot `i`, if normals are perturbed.
+    #[inline(always)]
+    pub(super) fn plain_view(&self, i: usize) -> Option<&View> {
+        self.plain.get(i)
     }
 
     /// Adds the layer's own light, and records what direct light needs.

@@ -8,7 +8,7 @@ use super::secondary::{THROUGH, TOTAL};
 use super::shading_point::Spot;
 use crate::lanes::Rgb8;
 use durer_geometry::{Hits8, Rays8};
-use durer_math::{Point3, Ray};
+use durer_math::{M8, Point3, Ray};
 use durer_scene::Rgb;
 
 /// How a ray came about.
@@ -122,25 +122,34 @@ impl Record {
         self.rays.get_mut(node as usize)
     }
 
-    /// Records what the node's ray hits, or that it sees the background.
+    /// Records what the node's ray hits, or the light from beyond all surfaces.
     pub(super) fn see(
         &mut self,
         node: u32,
         rays: &[Rays8],
         hits: &[Hits8],
         paths: &[Paths8],
-        background: Rgb,
+        beyond: impl Fn(&Rays8, M8) -> Rgb8,
     ) {
         let Some(node) = self.node(node) else { return };
         for ((rays, hits), paths) in rays.iter().zip(hits).zip(paths) {
+            let beyond = beyond(rays, rays.live & !hits.hit);
             for i in rays.live.lanes() {
                 if hits.hit.lane(i) {
                     let point = hits.p.to_vec().lane(i).to_point();
                     node.hit = Some((hits.object[i], hits.primitive[i], hits.t.0[i], point));
                 } else {
-                    node.light += background * paths.factor.lane(i);
+                    node.light += beyond.lane(i) * paths.factor.lane(i);
                 }
             }
+        }
+    }
+
+    /// Adds light that comes to the node's ray on its way to a spot.
+    pub(super) fn add(&mut self, node: u32, spot: &Spot, light: Rgb8) {
+        let Some(node) = self.node(node) else { return };
+        for i in spot.live.lanes() {
+            node.light += light.lane(i) * spot.paths.factor.lane(i);
         }
     }
 

@@ -5,9 +5,9 @@ use super::layers::Coats;
 use super::media::{Crossing, Interface};
 use super::shading_point::Spot;
 use crate::lanes::Rgb8;
-use crate::material::{Mirror, refract};
+use crate::material::{Mirror, View, refract};
 use crate::stats::RayCounts;
-use crate::vector::reflect;
+use crate::vector::{dot, reflect};
 use crate::world::{Look, World};
 use durer_geometry::Rays8;
 use durer_math::{F8, Isa, M8, Vec3};
@@ -111,8 +111,12 @@ impl<'w> Onward<'w> {
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
-                    for spot in spots {
+                    for (i, spot) in spots.iter().enumerate() {
                         let (direction, lanes) = passing(world, border, spot);
+                        let direction = match coats.plain_view(i) {
+                            Some(plain) => kept_behind(direction, plain),
+                            None => direction,
+                        };
                         let (weight, counts_for_enough) = dimmed(world, spot);
                         let lanes = lanes & counts_for_enough;
                         let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
@@ -126,7 +130,7 @@ impl<'w> Onward<'w> {
                 isa.run_in_lanes(
                     #[inline(always)]
                     || {
-                        for spot in spots {
+                        for (i, spot) in spots.iter().enumerate() {
                             let (weight, counts_for_enough) = dimmed(world, spot);
                             let lanes = totally_reflected(world, border, spot) & counts_for_enough;
                             if lanes.any() {
@@ -136,7 +140,7 @@ impl<'w> Onward<'w> {
                                 send(
                                     total,
                                     spot,
-                                    mirrored(spot),
+                                    mirrored(&spot.view, coats.plain_view(i)),
                                     weight,
                                     factor,
                                     lanes,
@@ -165,10 +169,14 @@ impl<'w> Onward<'w> {
                             & !totally_reflected(world, border, spot);
                         if lanes.any() {
                             let factor = spot.paths.factor * layer.reflectance;
+                            let direction = match coats.mirror_view(i, k) {
+                                Some((view, plain)) => mirrored(view, Some(plain)),
+                                None => mirrored(&spot.view, None),
+                            };
                             send(
                                 reflected,
                                 spot,
-                                mirrored(spot),
+                                direction,
                                 weight,
                                 factor,
                                 lanes,
@@ -182,10 +190,22 @@ impl<'w> Onward<'w> {
     }
 }
 
-/// The direction of mirror reflection.
+/// The direction of mirror reflection. Where the normal is perturbed, a direction into the surface is
+/// mirrored again, by the unperturbed normal.
 #[inline(always)]
-fn mirrored(spot: &Spot) -> Vec3<F8> {
-    reflect(spot.view.eye, spot.view.normal)
+fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
+    let direction = reflect(view.eye, view.normal);
+    let Some(plain) = plain else { return direction };
+    let enters = dot(direction, plain.normal).lt(F8::ZERO);
+    enters.select3(reflect(direction, plain.normal), direction)
+}
+
+/// The direction behind a surface with perturbed normals: one that would come back is mirrored by
+/// the unperturbed normal.
+#[inline(always)]
+fn kept_behind(direction: Vec3<F8>, plain: &View) -> Vec3<F8> {
+    let comes_back = dot(direction, plain.normal).gt(F8::ZERO);
+    comes_back.select3(reflect(direction, plain.normal), direction)
 }
 
 /// The lanes where the layers let enough light pass for a ray behind them.

@@ -58,6 +58,16 @@ impl<'w> Shadows<'w> {
         )
     }
 
+    /// The rays towards the light, with their ends.
+    pub(super) fn rays_mut(&mut self) -> (&mut [Rays8], &mut [Point3<F8>]) {
+        (&mut self.rays, &mut self.targets)
+    }
+
+    /// The light that reaches the points, to be changed.
+    pub(super) fn light_mut(&mut self) -> &mut [Rgb8] {
+        &mut self.light
+    }
+
     /// The light that reaches the points.
     pub(super) fn light(&self) -> &[Rgb8] {
         &self.light

@@ -23,12 +23,14 @@ use super::record::{RayTree, Record};
 use super::secondary::{Onward, Part};
 use super::shading_point::{Spot, Spots, face};
 use crate::camera::Camera;
+use crate::fog::{RenderFog, Ways, veil};
 use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use crate::progress::Progress;
 use crate::sampler::Place;
 use crate::stats::RayCounts;
 use crate::texture::{Blend, RenderLayer, RenderTexture, Weights};
+use crate::vector::length;
 use crate::world::World;
 use durer_geometry::{Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
@@ -179,7 +181,9 @@ impl<'w> Whitted<'w> {
                     }
                     let (origin, direction) = camera.rays(x, y, picture);
                     let (t_max, source) = (F8::splat(f64::INFINITY), Rays8::NONE.source);
-                    let live = M8::first(places.len());
+                    // Where the picture shows nothing, rays have no direction.
+                    let size = direction.x.abs() + direction.y.abs() + direction.z.abs();
+                    let live = M8::first(places.len()) & (F8::ZERO).lt(size);
                     all.rays.push(Rays8 { origin, direction, t_max, live, source });
                     all.paths.push(paths);
                 }
@@ -299,6 +303,7 @@ impl<'w> Whitted<'w> {
             let spots = spots.gather(self.isa, part, (rays, paths), &self.hits);
             face(self.isa, spots);
             let world = self.world;
+            self.see_through_fog(world.fogs_in(&standing.media), standing.node, spots);
             let look = part[0].look(world);
             let border = Interface::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
@@ -318,24 +323,45 @@ impl<'w> Whitted<'w> {
         if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
             camera.see_beyond(world.geometry(), standing.mask, rays, &mut self.hits);
         }
+        let fogs = world.fogs_in(&standing.media);
         if let Some(record) = &mut self.record {
-            record.see(standing.node, rays, &self.hits, paths, world.background);
+            let beyond = |rays: &Rays8, missed| beyond(world, fogs, rays, missed);
+            record.see(standing.node, rays, &self.hits, paths, beyond);
         }
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
         self.isa.run_in_lanes(
             #[inline(always)]
             || {
-                let background = Rgb8::splat(world.background);
                 for (group, hits) in hits.iter().enumerate() {
                     let missed = rays[group].live & !hits.hit;
                     if missed.any() {
-                        add(sums, &paths[group], background, missed);
+                        let seen = beyond(world, fogs, &rays[group], missed);
+                        add(sums, &paths[group], seen, missed);
                     }
                     cut(world, group, &rays[group], hits, pieces);
                 }
             },
         );
         sort(&mut self.pieces);
+    }
+
+    /// Adds the light of fog before spots, and dims what follows.
+    fn see_through_fog(&mut self, fogs: &[RenderFog], node: u32, spots: &mut [Spot]) {
+        if fogs.is_empty() {
+            return;
+        }
+        for spot in spots {
+            let (direction, distance) = (spot.view.eye, spot.distance);
+            let origin = spot.hits.p - direction * distance;
+            let ways = Ways { origin, direction, distance, live: spot.live };
+            if let Some(veil) = veil(fogs, &ways) {
+                add(&mut self.sums, &spot.paths, veil.added, spot.live);
+                if let Some(record) = &mut self.record {
+                    record.add(node, spot, veil.added);
+                }
+                spot.paths.factor = spot.paths.factor * veil.passed;
+            }
+        }
     }
 
     /// Shades spots with a texture, in whose space `inside` is given; `stack` counts the surface's
@@ -397,13 +423,11 @@ impl<'w> Whitted<'w> {
     ) {
         let mut shown = Vec::new();
         for spot in spots {
-            let p = spot.inside.to_vec();
-            let at = |i| if spot.live.lane(i) { blend.at(p.lane(i).to_point()) } else { None };
-            shown.push(core::array::from_fn::<_, LANES, _>(at));
+            shown.push(blend.at_lanes(spot.inside, spot.live));
         }
         let mut some = Spots::default();
         for entry in 0..blend.len() {
-            let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| s.part(entry)));
+            let weights = |group: usize| shown[group].map(|s| s.map_or(0.0, |s| blend.part(s, entry)));
             let mut weighed = spots.to_vec();
             let mut lists = Vec::new();
             for (group, spot) in weighed.iter_mut().enumerate() {
@@ -443,6 +467,18 @@ impl<'w> Whitted<'w> {
         let stack = (stack, draws(layers));
         self.onward.send((world, isa), part, &self.coats, stack, spots, &mut self.counts);
     }
+}
+
+/// The light from beyond all surfaces, of the sky through fog, for rays that hit nothing.
+#[inline(always)]
+fn beyond(world: &World, fogs: &[RenderFog], rays: &Rays8, missed: M8) -> Rgb8 {
+    let seen = world.sky.seen(rays.direction, missed);
+    if fogs.is_empty() {
+        return seen;
+    }
+    let direction = rays.direction * (F8::ONE / length(rays.direction));
+    let ways = Ways { origin: rays.origin, direction, distance: F8::splat(f64::INFINITY), live: missed };
+    veil(fogs, &ways).map_or(seen, |veil| seen * veil.passed + veil.added)
 }
 
 /// Adds colours to their sums.

@@ -1,5 +1,9 @@
 //! Lights with their constants precomputed: direction and strength of their light at a point.
 
+mod area;
+
+pub(crate) use self::area::Area;
+
 use crate::medium::NO_DISTANCE;
 use crate::power::Power;
 use crate::ray_end::RayEnd;
@@ -21,6 +25,8 @@ pub(crate) struct RenderLight {
     fade: Option<(f64, Power)>,
     /// The end of its shadow rays, if a surface may pass through it.
     pub(crate) end: Option<RayEnd>,
+    /// The points that throw its shadows, if there are several.
+    pub(crate) area: Option<Area>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -101,13 +107,14 @@ impl RenderLight {
                 .filter(|fade| fade.power > 0.0 && fade.distance.abs() > NO_DISTANCE)
                 .map(|fade| (fade.distance, Power::new(fade.power))),
             end: None,
+            area: light.area.as_ref().filter(|_| !light.shadowless).and_then(Area::new),
         })
     }
 
     /// Sets `end` if a surface of the geometry may pass through the light.
     #[must_use]
     pub(crate) fn among(self, geometry: &Geometry) -> Self {
-        let end = if self.shadowless {
+        let end = if self.shadowless || self.area.is_some() {
             None
         } else if self.parallel {
             RayEnd::light_plane(geometry, self.location, self.axis)

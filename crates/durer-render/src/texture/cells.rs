@@ -1,7 +1,8 @@
 //! Patterns that divide space into cells.
 
-use super::{brick::Brick, checker, hexagon};
+use super::{brick::Brick, checker, hexagon, square, triangular};
 use crate::vector::{floor, floor_lanes};
+use durer_math::lanes::LANES;
 use durer_math::{F8, M8, Point3};
 use durer_scene::Cells;
 
@@ -11,6 +12,8 @@ pub(crate) enum Cutter {
     Checker,
     Hexagon,
     Brick(Brick),
+    Square,
+    Triangular,
 }
 
 impl Cutter {
@@ -18,6 +21,8 @@ impl Cutter {
         match cells {
             Cells::Checker => Self::Checker,
             Cells::Hexagon => Self::Hexagon,
+            Cells::Square => Self::Square,
+            Cells::Triangular => Self::Triangular,
             Cells::Brick { size, mortar } => Self::Brick(Brick::new(size, mortar)),
         }
     }
@@ -29,6 +34,8 @@ impl Cutter {
             Self::Checker => checker::kind(p),
             Self::Hexagon => hexagon::kind(p),
             Self::Brick(brick) => brick.kind(p),
+            Self::Square => square::kind(p),
+            Self::Triangular => triangular::kind(p),
         }
     }
 }
@@ -39,6 +46,8 @@ pub(super) enum Kinds {
     Two(M8),
     /// 0, 1 or 2.
     Three(F8),
+    /// Any number.
+    Many([u8; LANES]),
 }
 
 impl Cutter {
@@ -49,6 +58,10 @@ impl Cutter {
             Self::Checker => Kinds::Two(checker::odd_lanes(p)),
             Self::Brick(brick) => Kinds::Two(brick.brick_lanes(p)),
             Self::Hexagon => Kinds::Three(hexagon::kinds(p)),
+            Self::Square | Self::Triangular => {
+                let kind = |i| self.kind(p.to_vec().lane(i).to_point()) as u8;
+                Kinds::Many(core::array::from_fn(kind))
+            }
         }
     }
 }
@@ -77,7 +90,7 @@ mod tests {
     #[test]
     fn lanes_are_cut_as_single_points_are() {
         let brick = Cells::Brick { size: Vec3::new(8.0, 3.0, 4.5), mortar: 0.5 };
-        for cells in [Cells::Checker, Cells::Hexagon, brick] {
+        for cells in [Cells::Checker, Cells::Hexagon, Cells::Square, Cells::Triangular, brick] {
             let cutter = Cutter::new(cells);
             for k in 0..500 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k * 8 + i as i32) - 1999.0) * a));
@@ -85,6 +98,7 @@ mod tests {
                 let kinds: [usize; 8] = match cutter.kinds(p) {
                     Kinds::Two(one) => core::array::from_fn(|i| usize::from(one.bits() >> i & 1 == 1)),
                     Kinds::Three(kinds) => kinds.0.map(|k| k as usize),
+                    Kinds::Many(kinds) => kinds.map(usize::from),
                 };
                 for (i, kind) in kinds.into_iter().enumerate() {
                     assert_eq!(kind, cutter.kind(p.to_vec().lane(i).to_point()));

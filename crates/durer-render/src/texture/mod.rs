@@ -3,22 +3,30 @@
 mod brick;
 mod cells;
 mod checker;
+mod field;
 mod fields;
-mod gradient;
 mod hexagon;
+mod lookup;
+mod normal;
 mod place;
+mod square;
+mod triangular;
+mod warp;
 mod wave;
 
+pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
 pub(crate) use self::place::Place;
 
+use durer_math::lanes::LANES;
 use durer_math::{Affine, AffineError, F8, Isa, M8, Point3};
 use durer_scene::{Colour, Pattern, Pigment, PigmentBody, Rgb, Texture, TextureBody};
 
 use crate::lanes::{Colour8, Rgb8};
 use crate::material::Finish;
 use cells::{Cutter, Kinds};
-use gradient::Lookup;
+use lookup::Lookup;
+use normal::RenderNormal;
 
 /// The texture of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +44,7 @@ pub(crate) enum RenderTexture {
 pub(crate) struct RenderLayer {
     pub(crate) pigment: RenderPigment,
     pub(crate) finish: Finish,
+    pub(crate) normal: Option<Box<RenderNormal>>,
 }
 
 /// A pigment.
@@ -51,7 +60,7 @@ pub(crate) enum RenderPigment {
 pub(crate) enum Blend<T> {
     Cells(Cutter, Box<[T]>),
     Map(Lookup, Box<[(f64, T)]>),
-    Mean(Box<[T]>),
+    Mean(Box<[(f64, T)]>),
 }
 
 /// The entries of a pattern at a point.
@@ -61,21 +70,8 @@ pub(crate) enum Shown {
     One(usize),
     /// This entry with the weight `k`, and the entry before it with the rest.
     Two(usize, f64),
-    /// Every entry with this weight.
-    Each(f64),
-}
-
-impl Shown {
-    /// The weight of an entry.
-    pub(crate) fn part(self, entry: usize) -> f64 {
-        match self {
-            Self::One(i) if i == entry => 1.0,
-            Self::Two(i, k) if i == entry => k,
-            Self::Two(i, k) if i == entry + 1 => 1.0 - k,
-            Self::Each(k) => k,
-            _ => 0.0,
-        }
-    }
+    /// Every entry with a weight of its own.
+    Each,
 }
 
 impl<T> Blend<T> {
@@ -88,26 +84,43 @@ impl<T> Blend<T> {
                 Self::Cells(Cutter::new(*cells), entries.iter().map(entry).collect::<Result<_, _>>()?)
             }
             Pattern::Map { value, entries } => Self::Map(
-                Lookup::new(value),
+                Lookup::new(value)?,
                 entries.iter().map(|(at, e)| Ok((*at, entry(e)?))).collect::<Result<_, AffineError>>()?,
             ),
-            Pattern::Mean(entries) => Self::Mean(entries.iter().map(entry).collect::<Result<_, _>>()?),
+            Pattern::Mean(entries) => {
+                let whole = entries.iter().map(|(weight, _)| weight).sum::<f64>();
+                let entries = entries.iter().map(|(weight, e)| Ok((weight / whole, entry(e)?)));
+                Self::Mean(entries.collect::<Result<_, AffineError>>()?)
+            }
+            // The warps are part of the place of what shows the pattern.
+            Pattern::Warped { pattern, .. } => Self::new(pattern, entry)?,
         })
+    }
+
+    /// The weight of an entry in what is shown.
+    pub(crate) fn part(&self, shown: Shown, entry: usize) -> f64 {
+        match (shown, self) {
+            (Shown::One(i), _) if i == entry => 1.0,
+            (Shown::Two(i, k), _) if i == entry => k,
+            (Shown::Two(i, k), _) if i == entry + 1 => 1.0 - k,
+            (Shown::Each, Self::Mean(entries)) => entries[entry].0,
+            _ => 0.0,
+        }
     }
 
     /// The entry with an index.
     pub(crate) fn entry(&self, i: usize) -> &T {
         match self {
-            Self::Cells(_, entries) | Self::Mean(entries) => &entries[i],
-            Self::Map(_, entries) => &entries[i].1,
+            Self::Cells(_, entries) => &entries[i],
+            Self::Map(_, entries) | Self::Mean(entries) => &entries[i].1,
         }
     }
 
     /// The number of entries.
     pub(crate) fn len(&self) -> usize {
         match self {
-            Self::Cells(_, entries) | Self::Mean(entries) => entries.len(),
-            Self::Map(_, entries) => entries.len(),
+            Self::Cells(_, entries) => entries.len(),
+            Self::Map(_, entries) | Self::Mean(entries) => entries.len(),
         }
     }
 
@@ -118,30 +131,56 @@ impl<T> Blend<T> {
             Self::Cells(cutter, entries) => {
                 Some(Shown::One(cutter.kind(p).min(entries.len().checked_sub(1)?)))
             }
-            Self::Mean(entries) => (!entries.is_empty()).then(|| Shown::Each(1.0 / entries.len() as f64)),
+            Self::Mean(entries) => (!entries.is_empty()).then_some(Shown::Each),
+            Self::Map(lookup, entries) => looked_up(entries, lookup.value(p)),
+        }
+    }
+
+    /// The entries at some points.
+    pub(crate) fn at_lanes(&self, p: Point3<F8>, live: M8) -> [Option<Shown>; LANES] {
+        let mut shown = [None; LANES];
+        match self {
             Self::Map(lookup, entries) => {
-                let w = lookup.value(p);
-                let (last_at, _) = entries.last()?;
-                if w >= *last_at {
-                    return Some(Shown::One(entries.len() - 1));
+                let w = lookup.values(p, live);
+                for i in live.lanes() {
+                    shown[i] = looked_up(entries, w.0[i]);
                 }
-                // Entries need not be sorted: the first one that is not below `w` is used.
-                let i = entries.iter().position(|(at, _)| w <= *at)?;
-                if i == 0 {
-                    return Some(Shown::One(i));
+            }
+            _ => {
+                for i in live.lanes() {
+                    shown[i] = self.at(p.to_vec().lane(i).to_point());
                 }
-                let (before, at) = (entries[i - 1].0, entries[i].0);
-                Some(if at > before { Shown::Two(i, (w - before) / (at - before)) } else { Shown::One(i) })
             }
         }
+        shown
     }
 }
 
+/// The entries of a map for the value `w`.
+fn looked_up<T>(entries: &[(f64, T)], w: f64) -> Option<Shown> {
+    let (last_at, _) = entries.last()?;
+    if w >= *last_at {
+        return Some(Shown::One(entries.len() - 1));
+    }
+    // Entries need not be sorted: the first one that is not below `w` is used.
+    let i = entries.iter().position(|(at, _)| w <= *at)?;
+    if i == 0 {
+        return Some(Shown::One(i));
+    }
+    let (before, at) = (entries[i - 1].0, entries[i].0);
+    Some(if at > before { Shown::Two(i, (w - before) / (at - before)) } else { Shown::One(i) })
+}
+
 impl<T> Blend<T> {
-    /// The mean of the colours of all entries.
+    /// The weighted mean of the colours of all entries.
     fn mean(&self, colour: impl Fn(&T) -> Colour) -> Colour {
-        (1..self.len())
-            .fold(colour(self.entry(0)), |mean, i| mean.mix(colour(self.entry(i)), 1.0 / (i + 1) as f64))
+        let Self::Mean(entries) = self else { return Colour::default() };
+        let (mut mean, mut so_far) = (Colour::default(), 0.0);
+        for (weight, entry) in entries {
+            so_far += weight;
+            mean = mean.mix(colour(entry), if so_far == 0.0 { 0.0 } else { weight / so_far });
+        }
+        mean
     }
 }
 
@@ -159,6 +198,7 @@ impl Blend<Colour> {
                         let first = Colour8::splat(entry(0)).or(kind.lt(F8::ONE), Colour8::splat(entry(1)));
                         Colour8::splat(entry(2)).or(kind.gt(F8::ONE), first)
                     }
+                    Kinds::Many(kinds) => Colour8::by_lane(live, |i| entry(usize::from(kinds[i]))),
                 }
             }
             Self::Mean(entries) if entries.is_empty() => Colour8::splat(Colour::default()),
@@ -184,16 +224,33 @@ impl Blend<Colour> {
     }
 }
 
+impl Blend<RenderPigment> {
+    /// The colours at some points.
+    fn shades(&self, p: Point3<F8>, live: M8) -> Colour8 {
+        let shown = self.at_lanes(p, live);
+        let mut sum = Colour8::splat(Colour { rgb: Rgb::BLACK, filter: 0.0, transmit: 0.0 });
+        for entry in 0..self.len() {
+            let weight = F8(shown.map(|shown| shown.map_or(0.0, |shown| self.part(shown, entry))));
+            let lanes = live & !weight.equals(F8::ZERO);
+            if lanes.any() {
+                let colours = self.entry(entry).colours(p, lanes);
+                sum = sum.plus(colours, weight, lanes);
+            }
+        }
+        sum
+    }
+}
+
 impl RenderPigment {
-    fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
+    pub(crate) fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
         let joined = || pigment.placement.affine().then(around);
         Ok(match &pigment.body {
             PigmentBody::Solid(colour) => Self::Solid(*colour),
             PigmentBody::Colours(pattern) => {
-                Self::Colours(Place::new(&joined()?), Box::new(Blend::new(pattern, |c| Ok(*c))?))
+                Self::Colours(Place::warped(&joined()?, pattern), Box::new(Blend::new(pattern, |c| Ok(*c))?))
             }
             PigmentBody::Pigments(pattern) => Self::Shades(
-                Place::new(&joined()?),
+                Place::warped(&joined()?, pattern),
                 Box::new(Blend::new(pattern, |p| Self::new(p, &Affine::IDENTITY))?),
             ),
         })
@@ -206,7 +263,7 @@ impl RenderPigment {
             Self::Colours(place, blend) => match blend.at(place.inside(p)) {
                 Some(Shown::One(i)) => *blend.entry(i),
                 Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
-                Some(Shown::Each(_)) => blend.mean(|colour| *colour),
+                Some(Shown::Each) => blend.mean(|colour| *colour),
                 None => Colour::default(),
             },
             Self::Shades(place, blend) => {
@@ -214,7 +271,7 @@ impl RenderPigment {
                 match blend.at(p) {
                     Some(Shown::One(i)) => blend.entry(i).at(p),
                     Some(Shown::Two(i, k)) => blend.entry(i - 1).at(p).mix(blend.entry(i).at(p), k),
-                    Some(Shown::Each(_)) => blend.mean(|shade| shade.at(p)),
+                    Some(Shown::Each) => blend.mean(|shade| shade.at(p)),
                     None => Colour::default(),
                 }
             }
@@ -248,15 +305,20 @@ impl RenderPigment {
         match self {
             Self::Solid(colour) => Colour8::splat(*colour),
             Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), live),
-            Self::Shades(..) => Colour8::by_lane(live, |i| self.at(p.to_vec().lane(i).to_point())),
+            Self::Shades(place, blend) => blend.shades(place.inside_lanes(p), live),
         }
     }
 }
 
 impl RenderTexture {
     /// Prepares a texture. Its own placement is combined with `around`, the placement of the space
-    /// in which it is used.
-    pub(crate) fn new(texture: &Texture, around: &Affine, ambient_light: Rgb) -> Result<Self, AffineError> {
+    /// in which it is used; `outer` places that space in the world.
+    pub(crate) fn new(
+        texture: &Texture,
+        around: &Affine,
+        outer: &Affine,
+        ambient_light: Rgb,
+    ) -> Result<Self, AffineError> {
         let joined = || match texture.placement.is_identity() {
             true => Ok(*around),
             false => texture.placement.affine().then(around),
@@ -268,17 +330,23 @@ impl RenderTexture {
                     Ok(RenderLayer {
                         pigment: RenderPigment::new(&layer.pigment, &place)?,
                         finish: Finish::new(&layer.finish, ambient_light),
+                        normal: match &layer.normal {
+                            Some(normal) => Some(Box::new(RenderNormal::new(normal, &place, outer)?)),
+                            None => None,
+                        },
                     })
                 };
                 Self::Layers(layers.iter().map(coat).collect::<Result<_, AffineError>>()?)
             }
-            TextureBody::Pattern(pattern) => Self::Pattern(
-                Place::new(&joined()?),
-                Box::new(Blend::new(pattern, |t| Self::new(t, &Affine::IDENTITY, ambient_light))?),
-            ),
+            TextureBody::Pattern(pattern) => {
+                let own = joined()?;
+                let world = own.then(outer)?;
+                let part = |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
+                Self::Pattern(Place::warped(&own, pattern), Box::new(Blend::new(pattern, part)?))
+            }
             TextureBody::Fields(fields) => {
                 let around = joined()?;
-                let paint = |t: &Texture, around: &Affine| Self::new(t, around, ambient_light);
+                let paint = |t: &Texture, around: &Affine| Self::new(t, around, outer, ambient_light);
                 Self::Fields(Box::new(Weights::new(fields, &around, paint)?))
             }
         })
@@ -318,8 +386,9 @@ impl RenderTexture {
                     Some(Shown::Two(i, k)) => {
                         blend.entry(i - 1).passed_at(p) * (1.0 - k) + blend.entry(i).passed_at(p) * k
                     }
-                    Some(Shown::Each(k)) => (0..blend.len())
-                        .fold(Rgb::BLACK, |passed, i| passed + blend.entry(i).passed_at(p) * k),
+                    Some(Shown::Each) => (0..blend.len()).fold(Rgb::BLACK, |passed, i| {
+                        passed + blend.entry(i).passed_at(p) * blend.part(Shown::Each, i)
+                    }),
                     None => Rgb::BLACK,
                 }
             }
@@ -373,7 +442,7 @@ mod tests {
         pigment.transform(&Affine::scaling(2.0, 2.0, 2.0).unwrap()).unwrap();
         let mut texture = Texture::plain(pigment, durer_scene::Finish::default());
         texture.transform(&Affine::translation(Vec3::new(10.0, 0.0, 0.0)).unwrap()).unwrap();
-        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Layers(coats) = &paint else { unreachable!() };
         let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
             let p = Point3::new(x, 0.5, 0.5);
@@ -419,7 +488,7 @@ mod tests {
         let value = Value::new(Ramp::Gradient(Vec3::X));
         let texture =
             Texture::pattern(Pattern::Map { value, entries: vec![(0.0, one(1.0)), (1.0, one(2.0))] });
-        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, Rgb::WHITE).unwrap();
+        let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
         let shown = blend.at(place.inside(p)).unwrap();

@@ -1,6 +1,8 @@
 //! Transformations from the world to a texture's space.
 
+use super::warp::Warp;
 use durer_math::{Affine, F8, Point3, Vec3};
+use durer_scene::{Pattern, PointWarp};
 
 /// The inverse of a placement, for shading.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +11,26 @@ pub(crate) enum Place {
     Moved(Vec3),
     /// The rows of the inverse matrix, and the centre.
     Mapped(Box<([[f64; 3]; 3], Point3)>),
+    /// Maps after the inverse of a placement.
+    Warped(Box<Warps>),
+}
+
+/// A placement and the maps after its inverse.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Warps {
+    place: Place,
+    warps: Box<[Warp]>,
+}
+
+impl Warps {
+    fn image(&self, p: Point3) -> Point3 {
+        self.warps.iter().fold(self.place.inside(p), |p, warp| warp.image(p))
+    }
+
+    #[inline(never)]
+    fn images(&self, p: Point3<F8>) -> Point3<F8> {
+        self.warps.iter().fold(self.place.inside_lanes(p), |p, warp| warp.images(p))
+    }
 }
 
 impl Place {
@@ -20,8 +42,25 @@ impl Place {
         }
     }
 
+    /// The place of a pattern that is placed by `map`, with its warps.
+    pub(crate) fn warped<T>(map: &Affine, pattern: &Pattern<T>) -> Self {
+        match pattern {
+            Pattern::Warped { warps, .. } => Self::through(map, warps),
+            _ => Self::new(map),
+        }
+    }
+
+    /// The place of what is placed by `map` and seen through warps.
+    pub(crate) fn through(map: &Affine, warps: &[PointWarp]) -> Self {
+        let place = Self::new(map);
+        if warps.is_empty() {
+            return place;
+        }
+        Self::Warped(Box::new(Warps { place, warps: warps.iter().map(Warp::new).collect() }))
+    }
+
     /// The point of the texture's space that is placed at `p`.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn inside(&self, p: Point3) -> Point3 {
         match self {
             Self::Identity => p,
@@ -32,10 +71,12 @@ impl Place {
                 let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
                 Point3::new(row(&rows[0]), row(&rows[1]), row(&rows[2]))
             }
+            Self::Warped(all) => all.image(p),
         }
     }
+
     /// [`Place::inside`] for eight points.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn inside_lanes(&self, p: Point3<F8>) -> Point3<F8> {
         match self {
             Self::Identity => p,
@@ -45,6 +86,7 @@ impl Place {
                 let v = p.to_vec() - Vec3::<F8>::splat(centre.to_vec());
                 Point3::new(row(&rows[0], v), row(&rows[1], v), row(&rows[2], v))
             }
+            Self::Warped(all) => all.images(p),
         }
     }
 }

@@ -224,7 +224,7 @@ impl Lowering {
             work.is_clear |= is_clear;
             let medium = match context.medium.or(work.medium) {
                 Some(medium) => medium,
-                None if is_clear => *work.medium.insert(self.medium(&Arc::default())),
+                None if is_clear => *work.medium.insert(self.medium(&Arc::default(), false)),
                 None => 0,
             };
             let painted = (texture, frame);
@@ -266,7 +266,7 @@ fn lent<'s>(
     if !lent.is_sure {
         return Err(Lent::unsure().at(at));
     }
-    Ok(Some(Arc::new(Texture::pattern(Pattern::Mean(lent.textures)))))
+    Ok(Some(Arc::new(Texture::pattern(Pattern::Mean(lent.textures.into_iter().map(|texture| (1.0, texture)).collect())))))
 }
 
 /// The textures of the leaves that hold a point.

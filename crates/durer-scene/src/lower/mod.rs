@@ -35,6 +35,8 @@ pub struct Lowered {
     pub looks: Vec<Look>,
     /// All media. The first is that of opaque objects without an interior of their own.
     pub media: Vec<Arc<Interior>>,
+    /// For each medium, whether it fills hollow objects.
+    pub hollow: Vec<bool>,
     /// Warnings about the scene. It is rendered nevertheless.
     pub warnings: Vec<(Option<Place>, String)>,
     primitives: PrimitiveLooks,
@@ -251,6 +253,7 @@ struct Lowering {
     builder: Builder,
     table: LookTable,
     media: Vec<Arc<Interior>>,
+    hollow: Vec<bool>,
     warnings: Vec<(Option<Place>, String)>,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
     /// Meshes that several objects share.
@@ -275,6 +278,7 @@ impl Lowering {
             builder: Geometry::builder(),
             table: LookTable::default(),
             media: vec![Arc::default()],
+            hollow: vec![false],
             warnings: Vec::new(),
             around_camera: Vec::new(),
             shared: shared::Meshes::of(&scene.objects),
@@ -298,6 +302,7 @@ impl Lowering {
             geometry,
             looks,
             media: self.media,
+            hollow: self.hollow,
             warnings: self.warnings,
             primitives,
             around_camera,
@@ -332,7 +337,7 @@ impl Lowering {
         let texture = own(&object.texture, &around.texture)?;
         let inside = own(&object.interior_texture, &around.inside)?;
         let medium = match &object.interior {
-            Some(interior) => Some(self.medium(interior)),
+            Some(interior) => Some(self.medium(interior, around.flags.or(object.flags).hollow)),
             None => around.medium,
         };
         let mut clips = around.clips.clone();
@@ -353,8 +358,9 @@ impl Lowering {
         if around.frame.is_identity() { Arc::clone(&self.world) } else { Arc::clone(&around.frame) }
     }
 
-    fn medium(&mut self, interior: &Arc<Interior>) -> u32 {
+    fn medium(&mut self, interior: &Arc<Interior>, hollow: bool) -> u32 {
         self.media.push(Arc::clone(interior));
+        self.hollow.push(hollow);
         (self.media.len() - 1) as u32
     }
 
@@ -382,11 +388,13 @@ impl Lowering {
     fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
         let (texture, frame) = self.texture_of(&context);
         let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
-        // Each clear object without an interior gets a medium of its own, so that leaving it means
-        // leaving this object only.
+        // Each clear or hollow object without an interior gets a medium of its own, so that leaving
+        // it means leaving this object only.
         let medium = match context.medium {
             Some(medium) => medium,
-            None if is_clear => self.medium(&Arc::default()),
+            None if is_clear || context.flags.hollow => {
+                self.medium(&Arc::default(), context.flags.hollow)
+            }
             None => 0,
         };
         let flags = context.flags;

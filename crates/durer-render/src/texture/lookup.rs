@@ -1,14 +1,15 @@
 //! Patterns that give a number from 0 to 1 for each point, by which a map is looked up.
 
+use super::field::Field;
 use super::wave::Shape;
-use crate::vector::{dot, floor_lanes, unit};
-use durer_math::{F8, M8, Point3, Vec3};
-use durer_scene::{Ramp, Value};
+use crate::vector::{floor, floor_lanes};
+use durer_math::{AffineError, F8, M8, Point3};
+use durer_scene::Value;
 
 /// A pattern that gives a number for each point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lookup {
-    axis: Vec3,
+    field: Field,
     frequency: f64,
     phase: f64,
     shape: Shape,
@@ -19,25 +20,23 @@ pub(crate) struct Lookup {
 const PERIOD: f64 = 1.000_01;
 
 impl Lookup {
-    pub(super) fn new(value: &Value) -> Self {
-        let Ramp::Gradient(axis) = value.ramp;
+    pub(super) fn new(value: &Value) -> Result<Self, AffineError> {
         // The language stores these two in single precision.
         let single = |v: f64| f64::from(v as f32);
-        Self {
-            axis: unit(axis),
+        Ok(Self {
+            field: Field::new(&value.ramp)?,
             frequency: single(value.frequency),
             phase: single(value.phase),
             shape: Shape::new(value.wave),
-        }
+        })
     }
 
     /// The value at a point.
     #[inline]
     pub(super) fn value(&self, p: Point3) -> f64 {
-        let along = dot(self.axis, p.to_vec());
-        let ramp = if along > 1.0 { along - crate::vector::floor(along) } else { along };
+        let ramp = self.field.value(p);
         if self.frequency == 0.0 {
-            return if ramp < 0.0 { ramp - crate::vector::floor(ramp) } else { ramp };
+            return if ramp < 0.0 { ramp - floor(ramp) } else { ramp };
         }
         let x = ramp * self.frequency + self.phase;
         let w = if x.abs() < PERIOD { x } else { x % PERIOD };
@@ -47,8 +46,7 @@ impl Lookup {
     /// The values at some points.
     #[inline(always)]
     pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
-        let along = dot(Vec3::<F8>::splat(self.axis), p.to_vec());
-        let ramp = (F8::ONE).lt(along).select(along - floor_lanes(along), along);
+        let ramp = self.field.values(p, live);
         if self.frequency == 0.0 {
             return ramp.lt(F8::ZERO).select(ramp - floor_lanes(ramp), ramp);
         }
@@ -63,12 +61,13 @@ impl Lookup {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_scene::Wave;
+    use durer_math::Vec3;
+    use durer_scene::{Ramp, Wave};
 
     fn gradient(frequency: f64, phase: f64) -> impl Fn(f64) -> f64 {
         let value =
             Value { ramp: Ramp::Gradient(Vec3::new(0.0, 2.0, 0.0)), frequency, phase, wave: Wave::Ramp };
-        let lookup = Lookup::new(&value);
+        let lookup = Lookup::new(&value).unwrap();
         move |y| lookup.value(Point3::new(3.0, y, 4.0))
     }
 
@@ -115,7 +114,7 @@ mod tests {
         {
             let (frequency, phase) = ([1.0, -2.5, 0.0][k % 3], 0.3);
             let ramp = Ramp::Gradient(Vec3::new(0.3, 2.0, -0.7));
-            let lookup = Lookup::new(&Value { ramp, frequency, phase, wave });
+            let lookup = Lookup::new(&Value { ramp, frequency, phase, wave }).unwrap();
             for k in -40..40 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.7), x(1.0), x(-0.3));

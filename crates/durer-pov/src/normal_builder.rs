@@ -1,0 +1,74 @@
+//! The normal builder: turns the reader's perturbed normals into scene data.
+
+use durer_scene as scene;
+
+use crate::diagnostics::{Place, Result};
+use crate::keywords::Keyword;
+use crate::scene_builder::placement;
+use crate::texture::{Normal, NormalKind, Pattern, PatternKind};
+use crate::texture_builder::{blend_of_patterns, pattern_of, value_of, warps_of};
+
+/// Converts a normal; `None` if it perturbs nothing.
+pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
+    let Some(kind) = &own.kind else { return Ok(None) };
+    let kind = match kind {
+        NormalKind::Pattern(kind) => kind.clone(),
+        // Only its warps are used.
+        NormalKind::Facets(_) => PatternKind::Average,
+    };
+    let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
+    let body = match (&own.normals, push_of(own)) {
+        (Some(map), _) => scene::NormalBody::Normals(Box::new(pattern_of(
+            &pattern,
+            map,
+            at,
+            |part| Ok(normal(part, at)?.unwrap_or_else(level)),
+            |_, _, _| Err(blend_of_patterns(at)),
+        )?)),
+        (None, Some(push)) if own.slopes.is_none() => {
+            scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount: own.amount }
+        }
+        (None, _) if pattern.kind.list_length().is_some() || pattern.kind == PatternKind::Average => {
+            return Ok(None);
+        }
+        (None, _) => scene::NormalBody::Height(Box::new(scene::Height {
+            warps: warps_of(&pattern, at)?,
+            value: value_of(&pattern, at)?,
+            slopes: own.slopes.as_ref().map_or_else(Vec::new, |map| map.entries.clone()),
+            amount: own.amount,
+            accuracy: own.accuracy,
+        })),
+    };
+    let placement = placement(&own.modifiers.place, at)?;
+    Ok(Some(scene::Normal { body, placement, keeps_slope: own.keeps_slope }))
+}
+
+/// A normal that perturbs nothing.
+fn level() -> scene::Normal {
+    let body = scene::NormalBody::Push { warps: Vec::new(), push: scene::Push::Bumps, amount: 0.0 };
+    scene::Normal { body, placement: scene::Placement::IDENTITY, keeps_slope: false }
+}
+
+/// The vector that a normal adds, for the patterns that perturb normals in their own way.
+fn push_of(own: &Normal) -> Option<scene::Push> {
+    let ripples = |waves| {
+        let (frequency, phase) = (own.modifiers.frequency, own.modifiers.phase);
+        scene::Push::Ripples(scene::Ripples { waves, frequency, phase })
+    };
+    let kind = match own.kind.as_ref()? {
+        NormalKind::Facets(size) => return Some(scene::Push::Facets(*size)),
+        NormalKind::Pattern(kind) => kind,
+    };
+    match kind {
+        PatternKind::Written(Keyword::Bumps, _) => Some(scene::Push::Bumps),
+        PatternKind::Written(Keyword::Dents, _) => Some(scene::Push::Dents),
+        PatternKind::Written(Keyword::Wrinkles, _) => Some(scene::Push::Wrinkles),
+        PatternKind::Written(Keyword::Ripples, _) => Some(ripples(false)),
+        PatternKind::Written(Keyword::Waves, _) => Some(ripples(true)),
+        PatternKind::Ramp(ramp, _) => match **ramp {
+            scene::Ramp::Quilted(bottom, top) => Some(scene::Push::Quilted(bottom, top)),
+            _ => None,
+        },
+        _ => None,
+    }
+}

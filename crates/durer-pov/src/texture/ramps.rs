@@ -1,0 +1,154 @@
+//! Patterns with numbers of their own: spirals, fractals, crackle and others.
+
+use std::rc::Rc;
+
+use durer_math::Vec3;
+use durer_scene::{Crackle, Fractal, FractalMap, Ramp};
+
+use super::PatternKind;
+use crate::diagnostics::{Error, Place, Result};
+use crate::keywords::Keyword;
+use crate::parser::Parser;
+use crate::value::Value;
+
+/// POV-Ray's limits on the exponent of a fractal.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 2.0..=33.0;
+
+/// The greatest number of iterations of a fractal that is not refused.
+const MOST_ITERATIONS: f64 = 1e9;
+
+impl Parser<'_> {
+    /// Reads the word of a pattern with numbers of its own, and the numbers that follow it.
+    pub(super) fn ramp_kind(&mut self) -> Result<Option<PatternKind>> {
+        let Some(word) = self.peek_word()? else { return Ok(None) };
+        let place = self.here();
+        let ramp = match word {
+            Keyword::Spiral1 | Keyword::Spiral2 => {
+                self.next()?;
+                Ramp::Spiral { arms: self.float()?, double: word == Keyword::Spiral2, turbulence: None }
+            }
+            Keyword::Quilted => {
+                self.next()?;
+                Ramp::Quilted(1.0, 1.0)
+            }
+            Keyword::Crackle => {
+                self.next()?;
+                let form = Vec3::new(-1.0, 1.0, 0.0);
+                Ramp::Crackle(Crackle { form, metric: 2.0, offset: 0.0, solid: false })
+            }
+            Keyword::Mandel | Keyword::Julia => Ramp::Fractal(self.fractal(FractalMap::Power(2))?),
+            Keyword::Magnet => {
+                self.next()?;
+                let number = self.float()?;
+                let map = match number {
+                    1.0 => FractalMap::Magnet1,
+                    2.0 => FractalMap::Magnet2,
+                    _ => return Err(Error::invalid(place, format!("magnet is 1 or 2, not {number}"))),
+                };
+                Ramp::Fractal(self.fractal(map)?)
+            }
+            Keyword::Function => return self.function_kind(place).map(Some),
+            Keyword::PigmentPattern => {
+                self.next()?;
+                let pigment = self.nested(|r| r.pigment_block(&super::Pigment::default()))?;
+                self.check_map_depth(1 + pigment.depth())?;
+                return Ok(Some(PatternKind::GreyOf(Rc::new(pigment))));
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(PatternKind::Ramp(Rc::new(ramp), place)))
+    }
+
+    /// Reads `function { ... }` as a pattern.
+    fn function_kind(&mut self, place: Place) -> Result<PatternKind> {
+        match self.function_block()? {
+            Value::Function(called) if called.formula.inputs() <= 3 => {
+                Ok(PatternKind::Ramp(Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))), place))
+            }
+            _ => Err(Error::invalid(place, "the function of a pattern gives one number for x, y and z")),
+        }
+    }
+
+    /// Reads `mandel N` or `julia <re, im>, N`.
+    fn fractal(&mut self, map: FractalMap) -> Result<Fractal> {
+        let lexeme = self.next()?;
+        let constant = match lexeme.item {
+            crate::parser::Item::Word(Keyword::Mandel) => None,
+            crate::parser::Item::Word(Keyword::Julia) => {
+                let [re, im, ..] = self.vector()?;
+                self.skip_comma()?;
+                Some((re, im))
+            }
+            _ => return Err(self.unexpected(&lexeme, "mandel or julia")),
+        };
+        let place = self.here();
+        let count = self.float()?;
+        if !(1.0..=MOST_ITERATIONS).contains(&count) {
+            let text = format!("a fractal has 1 to {MOST_ITERATIONS} iterations, not {count}");
+            return Err(Error::invalid(place, text));
+        }
+        let (exterior, interior) = ((1, 1.0), (0, 1.0));
+        Ok(Fractal { map, constant, iterations: count as u32, exterior, interior })
+    }
+
+    /// Reads a modifier that belongs to a pattern with numbers of its own.
+    pub(super) fn ramp_modifier(&mut self, kind: Option<&mut PatternKind>) -> Result<bool> {
+        let Some(word) = self.peek_word()? else { return Ok(false) };
+        let place = self.here();
+        let Some(PatternKind::Ramp(ramp, _)) = kind else { return Ok(false) };
+        match (word, Rc::make_mut(ramp)) {
+            (Keyword::Control0, Ramp::Quilted(bottom, _)) => {
+                self.next()?;
+                *bottom = self.float()?;
+            }
+            (Keyword::Control1, Ramp::Quilted(_, top)) => {
+                self.next()?;
+                *top = self.float()?;
+            }
+            (Keyword::Form, Ramp::Crackle(crackle)) => {
+                self.next()?;
+                let [x, y, z] = self.vector()?;
+                crackle.form = Vec3::new(x, y, z);
+            }
+            (Keyword::Metric, Ramp::Crackle(crackle)) => {
+                self.next()?;
+                let metric = self.float()?;
+                if metric <= 0.0 {
+                    let text = format!("the metric of crackle must be positive, not {metric}");
+                    return Err(Error::invalid(place, text));
+                }
+                crackle.metric = metric;
+            }
+            (Keyword::Offset, Ramp::Crackle(crackle)) => {
+                self.next()?;
+                crackle.offset = self.float()?;
+            }
+            (Keyword::Solid, Ramp::Crackle(crackle)) => {
+                self.next()?;
+                crackle.solid = self.switch_value()?;
+            }
+            (Keyword::Exponent, Ramp::Fractal(set)) => {
+                self.next()?;
+                let exponent = self.float()?;
+                if !EXPONENTS.contains(&exponent) || !matches!(set.map, FractalMap::Power(_)) {
+                    let text = format!("the exponent of mandel or julia is 2 to 33, not {exponent}");
+                    return Err(Error::invalid(place, text));
+                }
+                set.map = FractalMap::Power(exponent as u32);
+            }
+            (Keyword::Exterior | Keyword::Interior, Ramp::Fractal(set)) => {
+                self.next()?;
+                let kind = self.float()?;
+                if !(0.0..=6.0).contains(&kind) {
+                    let text = format!("{} of a fractal is 0 to 6, not {kind}", word.text());
+                    return Err(Error::invalid(place, text));
+                }
+                self.skip_comma()?;
+                let both = (kind as u8, self.float()?);
+                if word == Keyword::Exterior { set.exterior = both } else { set.interior = both }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,114 @@
+//! Cameras whose picture is not a plane: fisheyes, spheres and cylinders.
+//!
+//! With the unit vectors `r`, `u`, `f` to the right, up and forwards, and `x = px`, `y = -py`:
+//!
+//! ```text
+//!   fisheye     t = (a/2) |(x |right|, y |up|)|, seen up to 1:  sin(t) (cos, sin)(angle in the picture), cos(t)
+//!   ultra wide  (sin s, sin t, cos s cos t),  s = x a/2,  t = y (a/2) |up|/|right|
+//!   spherical   (sin s cos t, sin t, cos s cos t),  s = x h/2,  t = y v/2
+//!   panoramic   the same for h = v = 180 degrees, times (|right|, |up|, |direction|)
+//!   cylinder    (sin s, y |up|/2, cos s),  s = x a/2;  a horizontal one has x and y exchanged
+//! ```
+
+use super::{CameraError, check};
+use core::f64::consts::{FRAC_PI_2, PI};
+use durer_math::lanes::LANES;
+use durer_math::{F8, Point3, Ray, Vec3, elementary};
+use durer_scene::Projection;
+
+use crate::vector::{length, unit};
+
+/// A camera whose picture is not a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curved {
+    projection: Projection,
+    origin: Point3,
+    /// To the right, up and forwards, with length 1.
+    frame: [Vec3; 3],
+    /// The lengths of the scene's vectors.
+    lengths: [f64; 3],
+}
+
+impl Curved {
+    /// Converts the scene's camera.
+    pub(super) fn new(camera: &durer_scene::Camera) -> Result<Self, CameraError> {
+        let own = [camera.right, camera.up, camera.direction];
+        let [right, up, direction] = own;
+        check(camera.location, [("direction", direction), ("right vector", right), ("up vector", up)])?;
+        Ok(Self {
+            projection: camera.projection,
+            origin: camera.location,
+            frame: own.map(unit),
+            lengths: own.map(length),
+        })
+    }
+
+    /// The ray through the point `(px, py)` of the picture; its direction is zero where the picture
+    /// shows nothing.
+    pub fn ray(&self, px: f64, py: f64) -> Ray {
+        let (x, y) = (px, -py);
+        let [right, up, forwards] = self.lengths;
+        let sphere = |s: f64, t: f64| {
+            let ((sin_s, cos_s), (sin_t, cos_t)) = (elementary::sin_cos(s), elementary::sin_cos(t));
+            Vec3::new(sin_s * cos_t, sin_t, cos_s * cos_t)
+        };
+        let mut origin = self.origin;
+        let v = match self.projection {
+            Projection::Fisheye(angle) => {
+                let (x, y) = (x * right, y * up);
+                let from_middle = (x * x + y * y).sqrt();
+                if from_middle >= 1.0 {
+                    Vec3::ZERO
+                } else {
+                    let (sin, cos) = elementary::sin_cos(from_middle * angle * 0.5);
+                    let k = if from_middle > 0.0 { sin / from_middle } else { 0.0 };
+                    Vec3::new(x * k, y * k, cos)
+                }
+            }
+            Projection::UltraWideAngle(angle) => {
+                let (s, t) = (x * angle * 0.5, y * angle * 0.5 * up / right);
+                let ((sin_s, cos_s), (sin_t, cos_t)) = (elementary::sin_cos(s), elementary::sin_cos(t));
+                Vec3::new(sin_s, sin_t, cos_s * cos_t)
+            }
+            Projection::Spherical(wide, high) => sphere(x * wide * 0.5, y * high * 0.5),
+            Projection::Panoramic => {
+                let v = sphere(x * FRAC_PI_2, y * FRAC_PI_2);
+                Vec3::new(v.x * right, v.y * up, v.z * forwards)
+            }
+            Projection::Cylinder { angle, vertical, moving } => {
+                let (around, along, size) = if vertical { (x, y, up) } else { (y, x, right) };
+                let (sin, cos) = elementary::sin_cos(around * angle * 0.5);
+                let mut along = along * size * 0.5;
+                if moving {
+                    origin = origin + self.frame[usize::from(vertical)] * along;
+                    along = 0.0;
+                }
+                if vertical { Vec3::new(sin, along, cos) } else { Vec3::new(along, sin, cos) }
+            }
+            Projection::Perspective | Projection::Orthographic => Vec3::new(x, y, PI),
+        };
+        let [r, u, f] = self.frame;
+        Ray::new(origin, r * v.x + u * v.y + f * v.z)
+    }
+
+    /// The rays through some points.
+    pub(super) fn rays(&self, px: F8, py: F8) -> (Point3<F8>, Vec3<F8>) {
+        let mut origin = Vec3::<F8>::splat(self.origin.to_vec());
+        let mut direction = Vec3::<F8>::splat(Vec3::ZERO);
+        for i in 0..LANES {
+            let ray = self.ray(px.0[i], py.0[i]);
+            origin.set_lane(i, ray.origin.to_vec());
+            direction.set_lane(i, ray.direction);
+        }
+        (origin.to_point(), direction)
+    }
+
+    /// The vectors whose sums are the starts of rays.
+    pub(super) fn start_terms(&self) -> [Vec3; 3] {
+        [
+            self.origin.to_vec(),
+            self.frame[0] * (self.lengths[0] * 0.5),
+            self.frame[1] * (self.lengths[1] * 0.5),
+        ]
+    }
+}

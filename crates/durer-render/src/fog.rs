@@ -1,0 +1,160 @@
+//! Fog between the start of a ray and what it sees.
+//!
+//! Of the light from a distance `s`, the fraction `t = exp(-d/D)` comes through, where `D` is the
+//! fog's distance and `d` the integral of its density along the way: `s` for fog that is the same
+//! everywhere. The density of a layer on the ground depends on the height `h` alone, so that
+//! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density.
+
+use core::f64::consts::FRAC_PI_2;
+
+use durer_math::{F8, M8, Point3, Vec3, elementary};
+use durer_scene::{Fog, GroundFog, Rgb};
+
+use crate::lanes::Rgb8;
+use crate::texture::Stir;
+use crate::vector::{dot, length};
+
+/// A [`Fog`] with its constants precomputed.
+#[derive(Clone, Debug)]
+pub(crate) struct RenderFog {
+    colour: Rgb,
+    filter: f64,
+    transmit: f64,
+    distance: f64,
+    ground: Option<GroundFog>,
+    stir: Option<Stir>,
+    depth: f64,
+}
+
+/// The way of eight rays through fog: unit directions, and distances, which may be infinite.
+pub(crate) struct Ways {
+    pub(crate) origin: Point3<F8>,
+    pub(crate) direction: Vec3<F8>,
+    pub(crate) distance: F8,
+    pub(crate) live: M8,
+}
+
+/// What fog does to the light from behind it: `light * passed + added`.
+pub(crate) struct Veil {
+    pub(crate) passed: Rgb8,
+    pub(crate) added: Rgb8,
+}
+
+/// Below this difference of heights a ray is horizontal.
+const LEVEL: f64 = 1e-9;
+
+impl RenderFog {
+    pub(crate) fn new(fog: &Fog) -> Self {
+        Self {
+            colour: fog.colour.rgb,
+            filter: fog.colour.filter,
+            transmit: fog.colour.transmit,
+            distance: fog.distance,
+            ground: fog.ground,
+            stir: fog.turbulence.as_ref().map(Stir::new),
+            depth: fog.turbulence_depth,
+        }
+    }
+
+    /// The fraction of light that comes through, before the fog's own least fraction.
+    fn through(&self, ways: &Ways) -> F8 {
+        let mut through = F8::ZERO;
+        let stirred = self.stir.as_ref().map(|stir| self.factor(stir, ways));
+        for i in ways.live.lanes() {
+            let s = ways.distance.0[i];
+            let way = match &self.ground {
+                None => s,
+                Some(ground) => {
+                    let (origin, direction) =
+                        (ways.origin.to_vec().lane(i), ways.direction.lane(i));
+                    ground_way(ground, dot(ground.up, origin), dot(ground.up, direction), s)
+                }
+            };
+            let way = way * stirred.map_or(1.0, |factor| factor.0[i]);
+            through.0[i] = elementary::exp(-way / self.distance);
+        }
+        through
+    }
+
+    /// The factor by which turbulence changes distances.
+    fn factor(&self, stir: &Stir, ways: &Ways) -> F8 {
+        let reach = ways.distance.map(|s| if s.is_finite() { s } else { 0.0 }) * self.depth;
+        let at = ways.origin + ways.direction * reach;
+        stir.scalar(at) * length(stir.amount)
+    }
+
+    fn veil(&self, ways: &Ways) -> Veil {
+        let t = self.through(ways).max(F8::splat(self.transmit));
+        let colour = Rgb8::splat(self.colour);
+        let filter = F8::splat(self.filter);
+        let passed = colour.map(|c| t * (c * filter + (F8::ONE - filter)));
+        Veil { passed, added: colour * (F8::ONE - t) }
+    }
+}
+
+/// What all fog does to the light from behind it; `None` without fog.
+pub(crate) fn veil(fogs: &[RenderFog], ways: &Ways) -> Option<Veil> {
+    let mut all: Option<Veil> = None;
+    for fog in fogs {
+        let one = fog.veil(ways);
+        all = Some(match all {
+            None => one,
+            Some(before) => Veil {
+                passed: before.passed * one.passed,
+                // Colours of several fogs add up (a fact of the scene language).
+                added: before.added + one.added,
+            },
+        });
+    }
+    all
+}
+
+/// The integral of the density along a way of length `s` that starts at the height `start` and rises
+/// by `rise` for each unit.
+fn ground_way(fog: &GroundFog, start: f64, rise: f64, s: f64) -> f64 {
+    if rise.abs() < LEVEL {
+        return s * density(fog, start);
+    }
+    let end = if s.is_finite() { start + rise * s } else { rise * f64::INFINITY };
+    (summed(fog, end) - summed(fog, start)) / rise
+}
+
+fn density(fog: &GroundFog, height: f64) -> f64 {
+    let above = height - fog.offset;
+    if above <= 0.0 {
+        return 1.0;
+    }
+    if fog.fade == 0.0 {
+        return 0.0;
+    }
+    let x = above / fog.fade;
+    1.0 / (1.0 + x * x)
+}
+
+/// An integral of the density over the height.
+fn summed(fog: &GroundFog, height: f64) -> f64 {
+    let above = height - fog.offset;
+    if above <= 0.0 {
+        above
+    } else if fog.fade == 0.0 {
+        0.0
+    } else if above.is_finite() {
+        fog.fade * elementary::atan(above / fog.fade)
+    } else {
+        fog.fade.abs() * FRAC_PI_2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of POV-Ray.
+    #[test]
+    fn ground_fog_thins_out() {
+        for (offset, fade, want) in [(0.0, 1.0, 1.3734), (0.0, 2.0, 2.3806), (1.0, 1.0, 2.3258)] {
+            let fog = GroundFog { up: Vec3::Y, offset, fade };
+            assert!((ground_way(&fog, 0.0, 1.0, 5.0) - want).abs() < 1e-4);
+        }
+    }
+}

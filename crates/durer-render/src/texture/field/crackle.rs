@@ -1,0 +1,197 @@
+//! Patterns made of random numbers and points, one in each unit cube.
+
+use durer_math::{F8, Point3, Vec3, elementary, noise};
+use durer_scene::Crackle;
+
+use crate::vector::floor;
+
+/// Mixes the bits of a cell's coordinates: the last rounds of A. Appleby's MurmurHash3.
+fn hash(cell: [f64; 3]) -> u64 {
+    let [x, y, z] = cell.map(|c| c as i64 as u64);
+    let mut h = x.wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        ^ y.wrapping_mul(0xc2b2_ae3d_27d4_eb4f)
+        ^ z.wrapping_mul(0x1656_67b1_9e37_79f9);
+    h = (h ^ h >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    h = (h ^ h >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    h ^ h >> 33
+}
+
+/// A number from 0 to 1 made of 21 bits.
+fn fraction(bits: u64) -> f64 {
+    const PART: u64 = 1 << 21;
+    (bits % PART) as f64 / PART as f64
+}
+
+/// The random number of the unit cube of a point.
+pub(in crate::texture) fn cell_number(p: Point3) -> f64 {
+    let cell = |x| floor(x + super::super::cells::BORDER);
+    fraction(hash([cell(p.x), cell(p.y), cell(p.z)]))
+}
+
+/// How the distances to random points are measured and combined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Points {
+    form: Vec3,
+    metric: Metric,
+    /// The distance along a fourth axis, as the metric sums it.
+    fourth: f64,
+    solid: bool,
+}
+
+/// How a distance is made of the differences of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Metric {
+    Sum,
+    Euclid,
+    Power(f64),
+}
+
+impl Metric {
+    /// What is summed over the axes.
+    fn part(self, x: f64) -> f64 {
+        match self {
+            Self::Sum => x.abs(),
+            Self::Euclid => x * x,
+            Self::Power(e) => elementary::pow(x.abs(), e),
+        }
+    }
+
+    /// The distance with this sum.
+    fn distance(self, sum: f64) -> f64 {
+        match self {
+            Self::Sum => sum,
+            Self::Euclid => sum.sqrt(),
+            Self::Power(e) => elementary::pow(sum, 1.0 / e),
+        }
+    }
+}
+
+impl Points {
+    pub(super) fn new(crackle: &Crackle) -> Self {
+        let metric = match crackle.metric {
+            1.0 => Metric::Sum,
+            2.0 => Metric::Euclid,
+            e => Metric::Power(e),
+        };
+        Self { form: crackle.form, metric, fourth: metric.part(crackle.offset), solid: crackle.solid }
+    }
+
+    /// The sums for the three nearest points, and the cell of the nearest point with the point.
+    fn nearest(&self, p: Point3) -> ([f64; 3], [f64; 3], [f64; 3]) {
+        let [x, y, z] = p.to_array();
+        let own = [floor(x), floor(y), floor(z)];
+        let within = [x - own[0], y - own[1], z - own[2]];
+        // The sums for the three nearest points, the nearest point and its cell.
+        let mut nearest = [f64::INFINITY; 3];
+        let (mut point, mut cell) = (own, own);
+        let mut visit = |step: [i32; 3]| {
+            let offset = step.map(f64::from);
+            // The nearest that a point in that cell can be.
+            let gap = |axis: usize| match step[axis] {
+                0 => 0.0,
+                1.. => offset[axis] - within[axis],
+                _ => within[axis] - offset[axis] - 1.0,
+            };
+            let least = self.metric.part(gap(0)) + self.metric.part(gap(1)) + self.metric.part(gap(2));
+            let reach = if self.form.z == 0.0 { nearest[1] } else { nearest[2] };
+            if least >= reach {
+                return;
+            }
+            let bits = hash(core::array::from_fn(|axis| own[axis] + offset[axis]));
+            let at: [f64; 3] =
+                core::array::from_fn(|axis| offset[axis] + fraction(bits >> (21 * axis as u32)));
+            let part = |axis: usize| self.metric.part(at[axis] - within[axis]);
+            let sum = part(0) + part(1) + part(2);
+            if sum < nearest[0] {
+                nearest = [sum, nearest[0], nearest[1]];
+                point = core::array::from_fn(|axis| own[axis] + at[axis]);
+                cell = core::array::from_fn(|axis| own[axis] + offset[axis]);
+            } else if sum < nearest[1] {
+                nearest = [nearest[0], sum, nearest[1]];
+            } else if sum < nearest[2] {
+                nearest[2] = sum;
+            }
+        };
+        for &step in &NEAR_FIRST {
+            visit(step);
+        }
+        (nearest, point, cell)
+    }
+
+    /// Points that are only asked for the nearest.
+    pub(super) fn of_cells() -> Self {
+        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false };
+        Self::new(&crackle)
+    }
+
+    /// A random vector for all points nearest to one of the points, from -1 to 1 along each axis.
+    pub(super) fn vector(&self, p: Point3) -> Vec3 {
+        let (_, _, [x, y, z]) = self.nearest(p);
+        // Other numbers than those of the point.
+        let bits = hash([x + 0.0, y - 4096.0, z + 8192.0]);
+        let part = |k: u32| fraction(bits >> (21 * k)) * 2.0 - 1.0;
+        Vec3::new(part(0), part(1), part(2))
+    }
+
+    /// The value at a point.
+    pub(super) fn value(&self, p: Point3) -> f64 {
+        let (nearest, point, _) = self.nearest(p);
+        if self.solid {
+            let [x, y, z] = point.map(F8::splat);
+            let n = noise::values([&x, &y, &z]).0[0];
+            return ((n + 1.052_42) * 0.489_855_82).clamp(0.0, 1.0);
+        }
+        let [first, second, third] = nearest.map(|sum| self.metric.distance(sum + self.fourth));
+        let third = if self.form.z == 0.0 { 0.0 } else { self.form.z * third };
+        (self.form.x * first + self.form.y * second + third).clamp(0.0, 1.0)
+    }
+}
+
+/// The cells around a cell up to two away, the nearest first.
+const NEAR_FIRST: [[i32; 3]; 125] = near_first();
+
+const fn near_first() -> [[i32; 3]; 125] {
+    let mut all = [[0; 3]; 125];
+    let (mut count, mut ring) = (0, 0);
+    // By the sum of the squares of the steps.
+    while ring <= 12 {
+        let mut i = 0;
+        while i < 125 {
+            let step = [i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2];
+            if step[0] * step[0] + step[1] * step[1] + step[2] * step[2] == ring {
+                all[count] = step;
+                count += 1;
+            }
+            i += 1;
+        }
+        ring += 1;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cell_is_visited_once() {
+        let mut seen = NEAR_FIRST.to_vec();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!((seen.len(), NEAR_FIRST[0]), (125, [0; 3]));
+    }
+
+    #[test]
+    fn means_are_near_those_of_the_scene_language() {
+        let crackle = |form: Vec3| Crackle { form, metric: 2.0, offset: 0.0, solid: false };
+        for (form, want) in [(Vec3::new(-1.0, 1.0, 0.0), 0.196), (Vec3::X, 0.519), (Vec3::Y, 0.714)] {
+            let points = Points::new(&crackle(form));
+            let at = |k: i32| {
+                let k = f64::from(k);
+                Point3::new(k * 0.377, k * 0.611 - 40.0, 7.0 - k * 0.239)
+            };
+            let mean = (0..4000).map(|k| points.value(at(k))).sum::<f64>() / 4000.0;
+            assert!((mean - want).abs() < 0.015, "{form:?}: {mean}");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Fractals in the plane `z = 0`: how fast points escape when a function is iterated.
+
+use durer_math::{Point3, elementary};
+use durer_scene::{Fractal, FractalMap};
+
+/// A complex number.
+type Complex = (f64, f64);
+
+fn times(a: Complex, b: Complex) -> Complex {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+}
+
+fn over(a: Complex, b: Complex) -> Complex {
+    let square = b.0 * b.0 + b.1 * b.1;
+    let (re, im) = times(a, (b.0, -b.1));
+    (re / square, im / square)
+}
+
+fn square_of(z: Complex) -> f64 {
+    z.0 * z.0 + z.1 * z.1
+}
+
+fn power(z: Complex, n: u32) -> Complex {
+    (1..n).fold(z, |power, _| times(power, z))
+}
+
+/// One iteration.
+fn next(map: FractalMap, z: Complex, c: Complex) -> Complex {
+    match map {
+        FractalMap::Power(n) => {
+            let (re, im) = power(z, n);
+            (re + c.0, im + c.1)
+        }
+        FractalMap::Magnet1 => {
+            let (re, im) = times(z, z);
+            let root = over((re + c.0 - 1.0, im + c.1), (2.0 * z.0 + c.0 - 2.0, 2.0 * z.1 + c.1));
+            times(root, root)
+        }
+        FractalMap::Magnet2 => {
+            let one = (c.0 - 1.0, c.1);
+            let two = (c.0 - 2.0, c.1);
+            let both = times(one, two);
+            let square = times(z, z);
+            let (cube, first) = (times(square, z), times(one, z));
+            let second = times(two, z);
+            let above = (cube.0 + 3.0 * first.0 + both.0, cube.1 + 3.0 * first.1 + both.1);
+            let below = (
+                3.0 * (square.0 + second.0) + both.0 + 1.0,
+                3.0 * (square.1 + second.1) + both.1,
+            );
+            let root = over(above, below);
+            times(root, root)
+        }
+    }
+}
+
+/// The value at a point.
+pub(super) fn value(set: &Fractal, p: Point3) -> f64 {
+    let start = match (set.map, set.constant) {
+        // Magnets start from 0.
+        (FractalMap::Magnet1 | FractalMap::Magnet2, None) => (0.0, 0.0),
+        _ => (p.x, p.y),
+    };
+    let c = set.constant.unwrap_or((p.x, p.y));
+    let (mut z, mut least) = (start, square_of(start));
+    for k in 0..set.iterations {
+        z = next(set.map, z, c);
+        let square = square_of(z);
+        least = least.min(square);
+        let escapes = match set.map {
+            FractalMap::Power(_) => square > 4.0,
+            // Magnets also have a fixed point, 1.
+            _ => square > 1e4 || square_of((z.0 - 1.0, z.1)) < 1e-4,
+        };
+        if escapes {
+            return match set.exterior {
+                (1, _) => f64::from(k) / f64::from(set.iterations),
+                (kind, factor) => factor * of_last(kind, z),
+            };
+        }
+    }
+    match set.interior {
+        (1, factor) => least.sqrt() * factor,
+        (kind, factor) => factor * of_last(kind, z),
+    }
+}
+
+/// A number made of the last point.
+fn of_last(kind: u8, (re, im): Complex) -> f64 {
+    match kind {
+        2 => re,
+        3 => im,
+        4 => re * re,
+        5 => im * im,
+        6 => elementary::hypot(re, im),
+        _ => 1.0,
+    }
+}

@@ -1,0 +1,154 @@
+//! The functions that continuous patterns grow with.
+//!
+//! Every function is evaluated at eight points at once. Those of noise use the lanes, the others go
+//! through them one by one.
+
+mod crackle;
+mod formulas;
+mod fractal;
+mod noise;
+mod push;
+mod ripples;
+
+pub(super) use crackle::cell_number;
+pub(crate) use noise::Stir;
+pub(super) use push::Pusher;
+
+use super::RenderPigment;
+use crate::vector::{dot, floor, floor_lanes, unit};
+use crackle::Points;
+use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
+use durer_scene::tape::Tape;
+use durer_scene::{Fractal, Grain, Ramp};
+use ripples::Centres;
+
+/// A [`Ramp`] with its constants precomputed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Field {
+    Gradient(Vec3),
+    Spherical,
+    Cylindrical,
+    Planar,
+    Boxed,
+    Onion,
+    Leopard,
+    Radial,
+    Marble(Option<Stir>),
+    Wood(Option<Stir>),
+    Spiral { arms: f64, double: bool, stir: Option<Stir> },
+    Quilted(f64, f64),
+    Noise(Grain),
+    Agate(f64, Stir),
+    Cells,
+    Ripples(Box<Centres>),
+    Crackle(Points),
+    Fractal(Fractal),
+    Formula(Box<Tape>),
+    Pigment(Box<RenderPigment>),
+}
+
+impl Field {
+    pub(super) fn new(ramp: &Ramp) -> Result<Self, AffineError> {
+        let stir = |turbulence: &Option<durer_scene::Turbulence>| turbulence.as_ref().map(Stir::new);
+        Ok(match ramp {
+            Ramp::Gradient(axis) => Self::Gradient(unit(*axis)),
+            Ramp::Spherical => Self::Spherical,
+            Ramp::Cylindrical => Self::Cylindrical,
+            Ramp::Planar => Self::Planar,
+            Ramp::Boxed => Self::Boxed,
+            Ramp::Onion => Self::Onion,
+            Ramp::Leopard => Self::Leopard,
+            Ramp::Radial => Self::Radial,
+            Ramp::Marble(turbulence) => Self::Marble(stir(turbulence)),
+            Ramp::Wood(turbulence) => Self::Wood(stir(turbulence)),
+            Ramp::Spiral { arms, double, turbulence } => {
+                Self::Spiral { arms: *arms, double: *double, stir: stir(turbulence) }
+            }
+            &Ramp::Quilted(bottom, top) => Self::Quilted(bottom, top),
+            Ramp::Noise(grain) => match &grain.kind {
+                durer_scene::GrainKind::Agate(amount, turbulence) => {
+                    Self::Agate(*amount, Stir::new(turbulence))
+                }
+                _ => Self::Noise(*grain),
+            },
+            Ramp::Cells => Self::Cells,
+            Ramp::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
+            Ramp::Crackle(crackle) => Self::Crackle(Points::new(crackle)),
+            Ramp::Fractal(fractal) => Self::Fractal(*fractal),
+            Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
+            Ramp::Pigment(pigment) => {
+                Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
+            }
+        })
+    }
+
+    /// The value at a point.
+    #[inline]
+    pub(super) fn value(&self, p: Point3) -> f64 {
+        match self {
+            Self::Gradient(axis) => {
+                let along = dot(*axis, p.to_vec());
+                if along > 1.0 { along - floor(along) } else { along }
+            }
+            Self::Spherical => formulas::spherical(p),
+            Self::Cylindrical => formulas::cylindrical(p),
+            Self::Planar => (1.0 - p.y.abs()).max(0.0),
+            Self::Boxed => formulas::boxed(p),
+            Self::Onion => formulas::onion(p),
+            Self::Leopard => formulas::leopard(p),
+            Self::Radial => formulas::radial(p),
+            &Self::Quilted(bottom, top) => formulas::quilted(p, bottom, top),
+            Self::Cells => cell_number(p),
+            Self::Ripples(centres) => centres.value(p),
+            Self::Crackle(points) => points.value(p),
+            Self::Fractal(set) => fractal::value(set, p),
+            Self::Pigment(pigment) => pigment.at(p).rgb.luminance(),
+            Self::Marble(None) => p.x,
+            _ => {
+                let lanes = self.values(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::first(1));
+                lanes.0[0]
+            }
+        }
+    }
+
+    /// The values at some points.
+    #[inline(always)]
+    pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
+        match self {
+            Self::Gradient(axis) => {
+                let along = dot(Vec3::<F8>::splat(*axis), p.to_vec());
+                (F8::ONE).lt(along).select(along - floor_lanes(along), along)
+            }
+            _ => self.other_values(p, live),
+        }
+    }
+
+    fn other_values(&self, p: Point3<F8>, live: M8) -> F8 {
+        match self {
+            Self::Noise(grain) => noise::values(grain, p),
+            Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
+            Self::Marble(stir) => noise::marble(stir.as_ref(), p),
+            Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),
+            Self::Spiral { arms, double, stir } => {
+                let moved = stir.as_ref().map_or(F8::ZERO, |stir| stir.scalar(p) * stir.amount.x);
+                by_lane(p, live, |i, p| formulas::spiral(p, *arms, *double, moved.0[i]))
+            }
+            Self::Formula(program) => program.values(&[p.x, p.y, p.z]),
+            Self::Pigment(pigment) => {
+                let colours = pigment.colours(p, live);
+                by_lane(p, live, |i, _| colours.rgb.lane(i).luminance())
+            }
+            _ => by_lane(p, live, |_, p| self.value(p)),
+        }
+    }
+}
+
+/// Calls `f` for each live lane.
+#[inline(always)]
+fn by_lane(p: Point3<F8>, live: M8, f: impl Fn(usize, Point3) -> f64) -> F8 {
+    let mut values = F8::ZERO;
+    for i in live.lanes() {
+        values.0[i] = f(i, p.to_vec().lane(i).to_point());
+    }
+    values
+}

@@ -1,0 +1,164 @@
+//! Patterns made of noise, and turbulence.
+//!
+//! ```text
+//!   bozo      N(p)                                       dents  N(p)^3
+//!   wrinkles  sum of m(2^k p)/2^(k+1),  k from 0 to 9
+//!   granite   sum of |1/2 - m(2^(k+2) p)|/2^k,  k from 0 to 5
+//!   agate     ((1 + sin(2 pi (1.3 a T(p) + 1.1 z)))/2)^0.77
+//!   marble    x + t_x T(p)
+//!   wood      |(x + sin(2 pi t_x (x + D_x(p))), y + sin(2 pi t_y (y + D_y(p))))|
+//!
+//!   T(p) = sum of omega^k m_k(lambda^k p),   D(p) = sum of omega^k (n, n', n'')(lambda^k p)
+//! ```
+//!
+//! `n` is the underlying noise, around zero; `n'` and `n''` are `n` at shifted points. `N` is the
+//! noise of a generator, from 0 to 1. For the first generator `m` is `N`, for the second `2 N - 1/2`,
+//! clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the turbulence. Functions
+//! of the scene language use the same formulas.
+
+use crate::vector::floor;
+use core::f64::consts::TAU;
+use durer_math::{F8, M8, Point3, Vec3, elementary, noise};
+use durer_scene::{Grain, GrainKind, Turbulence};
+
+/// The shifts of the noise for the second and the third component of turbulence.
+pub(super) const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
+
+/// `n`.
+fn plain(p: Vec3<F8>) -> F8 {
+    noise::values([&p.x, &p.y, &p.z])
+}
+
+/// `N`.
+fn ranged(p: Vec3<F8>, old: bool) -> F8 {
+    let n = plain(p);
+    let n = if old { n + F8::splat(0.5) } else { (n + F8::splat(1.05242)) * 0.489_855_82 };
+    n.max(F8::ZERO).min(F8::ONE)
+}
+
+/// `m`; without the clamp if `clamped` is false.
+fn grain(p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
+    let n = ranged(p, old);
+    if old {
+        return n;
+    }
+    let m = n * 2.0 - F8::splat(0.5);
+    if clamped { m.max(F8::ZERO).min(F8::ONE) } else { m }
+}
+
+/// The values of a pattern at some points.
+pub(super) fn values(field: &Grain, p: Point3<F8>) -> F8 {
+    let (p, old) = (p.to_vec(), field.old);
+    match field.kind {
+        GrainKind::Bozo | GrainKind::Agate(..) => ranged(p, old),
+        GrainKind::Dents => {
+            let n = ranged(p, old);
+            n * n * n
+        }
+        GrainKind::Wrinkles => {
+            let (mut sum, mut weight, mut scale) = (F8::ZERO, 0.5, 1.0);
+            for _ in 0..10 {
+                sum += grain(p * F8::splat(scale), old, true) * weight;
+                (weight, scale) = (weight * 0.5, scale * 2.0);
+            }
+            sum
+        }
+        GrainKind::Granite => {
+            let (mut sum, mut weight, mut scale) = (F8::ZERO, 1.0, 4.0);
+            for _ in 0..6 {
+                sum += (F8::splat(0.5) - grain(p * F8::splat(scale), old, true)).abs() * weight;
+                (weight, scale) = (weight * 0.5, scale * 2.0);
+            }
+            sum
+        }
+    }
+}
+
+/// Turbulence with its octaves precomputed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stir {
+    pub(crate) amount: Vec3,
+    /// The weight and the scale of each octave.
+    octaves: Box<[(f64, f64)]>,
+    old: bool,
+}
+
+impl Stir {
+    pub(crate) fn new(turbulence: &Turbulence) -> Self {
+        // The language stores both in single precision.
+        let [omega, lambda] =
+            [turbulence.octaves.omega, turbulence.octaves.lambda].map(|v| f64::from(v as f32));
+        let octave = |k: u32| (elementary::powi(omega, k as i32), elementary::powi(lambda, k as i32));
+        Self {
+            amount: turbulence.amount,
+            octaves: (0..turbulence.octaves.count).map(octave).collect(),
+            old: turbulence.old,
+        }
+    }
+
+    /// `T`.
+    pub(crate) fn scalar(&self, p: Point3<F8>) -> F8 {
+        let mut sum = F8::ZERO;
+        for (k, &(weight, scale)) in self.octaves.iter().enumerate() {
+            sum += grain(p.to_vec() * F8::splat(scale), self.old, k == 0) * weight;
+        }
+        sum
+    }
+
+    /// A component of `D`.
+    fn component(&self, p: Point3<F8>, axis: usize) -> F8 {
+        let mut sum = F8::ZERO;
+        for &(weight, scale) in &self.octaves {
+            let mut p = p.to_vec() * F8::splat(scale);
+            if let Some(i) = axis.checked_sub(1) {
+                let [x, y, z] = ELSEWHERE[i];
+                p = p + Vec3::<F8>::splat(Vec3::new(x, y, z));
+            }
+            sum += plain(p) * weight;
+        }
+        sum
+    }
+
+    /// `p + t D(p)`.
+    pub(crate) fn moved(&self, p: Point3<F8>) -> Point3<F8> {
+        let along = |axis: usize, amount: f64| {
+            if amount == 0.0 { F8::ZERO } else { self.component(p, axis) * amount }
+        };
+        let Vec3 { x, y, z } = self.amount;
+        p + Vec3::new(along(0, x), along(1, y), along(2, z))
+    }
+}
+
+pub(super) fn marble(stir: Option<&Stir>, p: Point3<F8>) -> F8 {
+    match stir {
+        Some(stir) if stir.amount.x != 0.0 => p.x + stir.scalar(p) * stir.amount.x,
+        _ => p.x,
+    }
+}
+
+pub(super) fn wood(stir: Option<&Stir>, p: Point3<F8>, live: M8) -> F8 {
+    let along = |axis: usize, x: F8, amount: f64| {
+        let Some(stir) = stir.filter(|_| amount != 0.0) else { return x };
+        let way = (x + stir.component(p, axis)) * (TAU * amount);
+        x + each(way, live, elementary::sin)
+    };
+    let amount = stir.map_or(Vec3::ZERO, |stir| stir.amount);
+    let (x, y) = (along(0, p.x, amount.x), along(1, p.y, amount.y));
+    (x * x + y * y).sqrt()
+}
+
+pub(super) fn agate(amount: f64, stir: &Stir, p: Point3<F8>, live: M8) -> F8 {
+    let turns = stir.scalar(p) * (1.3 * amount) + p.z * 1.1;
+    each(turns, live, |t| {
+        let wave = (1.0 + elementary::sin(TAU * (t - floor(t)))) * 0.5;
+        elementary::pow(wave.max(0.0), 0.77)
+    })
+}
+
+fn each(x: F8, live: M8, f: impl Fn(f64) -> f64) -> F8 {
+    let mut values = F8::ZERO;
+    for i in live.lanes() {
+        values.0[i] = f(x.0[i]);
+    }
+    values
+}

@@ -1,0 +1,172 @@
+//! Perturbed normals, which make a surface look bumpy.
+//!
+//! In the space of its pattern, a point's unit normal `n` becomes
+//!
+//! ```text
+//!   n - 2/15 a grad h      for a landscape with heights h and the factor a,
+//!   n + a v                for a vector v,
+//! ```
+//!
+//! and is then scaled to length 1. The gradient is estimated from the heights at the four corners of
+//! a regular tetrahedron around the point.
+
+use durer_math::{Affine, AffineError, F8, M8, Matrix3, Point3, Vec3};
+use durer_scene::{Height, Normal, NormalBody};
+
+use super::field::Pusher;
+use super::lookup::Lookup;
+use super::place::Place;
+use super::{Blend, Shown};
+use crate::vector::unit;
+
+/// A [`Normal`] with its constants precomputed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RenderNormal {
+    place: Place,
+    /// From normals around it to those of its space, and back; `None` if they are the same.
+    turn: Option<Box<(Matrix3, Matrix3)>>,
+    keeps_slope: bool,
+    body: Body,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Body {
+    Height(Box<Landscape>),
+    Push(Pusher, f64),
+    Normals(Box<Blend<RenderNormal>>),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Landscape {
+    lookup: Lookup,
+    slopes: Box<[(f64, [f64; 2])]>,
+    amount: f64,
+    accuracy: f64,
+}
+
+/// The factor of a landscape's slopes (a fact of the scene language).
+const DEPTH: f64 = 2.0 / 15.0;
+
+/// The corners of a regular tetrahedron at the distance 1 from its centre. The scene language's
+/// stands like this.
+const CORNERS: [[f64; 3]; 4] = {
+    const A: f64 = 0.942_809_041_582_063_4; // 2 sqrt(2)/3
+    const B: f64 = 0.816_496_580_927_726; // sqrt(2/3)
+    const C: f64 = 1.0 / 3.0;
+    [[A, -C, 0.0], [0.0, 1.0, 0.0], [-0.5 * A, -C, B], [-0.5 * A, -C, -B]]
+};
+
+impl RenderNormal {
+    /// Prepares a normal that is placed by `around`; that space is placed in the world by `outer`.
+    pub(crate) fn new(normal: &Normal, around: &Affine, outer: &Affine) -> Result<Self, AffineError> {
+        let local = normal.placement.affine().then(around)?;
+        let world = local.then(outer)?;
+        let turn = (world.as_translation().is_none()).then(|| {
+            let (linear, inverse) = (world.linear(), world.inverse_linear());
+            Box::new((transposed(&linear), transposed(&inverse)))
+        });
+        let (place, body) = match &normal.body {
+            NormalBody::Height(height) => {
+                let Height { warps, value, slopes, amount, accuracy } = &**height;
+                let landscape = Landscape {
+                    lookup: Lookup::new(value)?,
+                    slopes: slopes.clone().into(),
+                    amount: *amount,
+                    accuracy: *accuracy,
+                };
+                (Place::through(&local, warps), Body::Height(Box::new(landscape)))
+            }
+            NormalBody::Push { warps, push, amount } => {
+                (Place::through(&local, warps), Body::Push(Pusher::new(push), *amount))
+            }
+            NormalBody::Normals(pattern) => {
+                let blend = Blend::new(pattern, |n| Self::new(n, &Affine::IDENTITY, &Affine::IDENTITY))?;
+                (Place::warped(&local, pattern), Body::Normals(Box::new(blend)))
+            }
+        };
+        Ok(Self { place, turn, keeps_slope: normal.keeps_slope, body })
+    }
+
+    /// The unit normals at some points, perturbed from the unit normals `n`.
+    pub(crate) fn perturbed(&self, p: Point3<F8>, n: Vec3<F8>, live: M8) -> Vec3<F8> {
+        let mut all = n;
+        for i in live.lanes() {
+            all.set_lane(i, self.at(p.to_vec().lane(i).to_point(), n.lane(i)));
+        }
+        all
+    }
+
+    /// The unit normal at a point, perturbed from the unit normal `n`.
+    fn at(&self, p: Point3, n: Vec3) -> Vec3 {
+        let p = self.place.inside(p);
+        let mut own = match &self.turn {
+            None => n,
+            Some(turn) => times(&turn.0, n),
+        };
+        if !self.keeps_slope {
+            own = unit(own);
+        }
+        let moved = match &self.body {
+            Body::Height(landscape) => own - landscape.gradient(p) * (DEPTH * landscape.amount),
+            Body::Push(pusher, amount) => own + pusher.vector(p) * *amount,
+            Body::Normals(blend) => match blend.at(p) {
+                Some(Shown::One(i)) => blend.entry(i).at(p, own),
+                Some(Shown::Two(i, k)) => {
+                    blend.entry(i - 1).at(p, own) * (1.0 - k) + blend.entry(i).at(p, own) * k
+                }
+                Some(Shown::Each) => (0..blend.len()).fold(Vec3::ZERO, |sum, i| {
+                    sum + blend.entry(i).at(p, own) * blend.part(Shown::Each, i)
+                }),
+                None => own,
+            },
+        };
+        unit(match &self.turn {
+            None => moved,
+            Some(turn) => times(&turn.1, moved),
+        })
+    }
+}
+
+impl Landscape {
+    /// The gradient of the heights at a point.
+    fn gradient(&self, p: Point3) -> Vec3 {
+        let mut around = Vec3::<F8>::splat(p.to_vec());
+        let corner = |i: usize| Vec3::new(CORNERS[i][0], CORNERS[i][1], CORNERS[i][2]);
+        for i in 0..4 {
+            around.set_lane(i, p.to_vec() + corner(i) * self.accuracy);
+        }
+        let values = self.lookup.values(around.to_point(), M8::first(4));
+        let sum = (0..4).fold(Vec3::ZERO, |sum, i| sum + corner(i) * self.bent(values.0[i]));
+        // The products of the corners with themselves add up to 4/3 of the identity.
+        sum * (0.75 / self.accuracy)
+    }
+
+    /// The height for a value: between two entries of the slope map, the cubic with their heights
+    /// and slopes. Slopes are relative to the distance of the entries (a fact of the scene language).
+    fn bent(&self, w: f64) -> f64 {
+        let (Some(first), Some(last)) = (self.slopes.first(), self.slopes.last()) else { return w };
+        if w >= last.0 {
+            return last.1[0];
+        }
+        let Some(i) = self.slopes.iter().position(|(at, _)| w <= *at).filter(|i| *i > 0) else {
+            return first.1[0];
+        };
+        let ((from, [low, start]), (to, [high, end])) = (self.slopes[i - 1], self.slopes[i]);
+        let width = to - from;
+        if width <= 0.0 {
+            return high;
+        }
+        let t = (w - from) / width;
+        let rise = high - low;
+        low + t * (start + t * (3.0 * rise - 2.0 * start - end + t * (start + end - 2.0 * rise)))
+    }
+}
+
+fn times(m: &Matrix3, v: Vec3) -> Vec3 {
+    let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
+    Vec3::new(row(&m[0]), row(&m[1]), row(&m[2]))
+}
+
+fn transposed(m: &Matrix3) -> Matrix3 {
+    core::array::from_fn(|i| core::array::from_fn(|j| m[j][i]))
+}

@@ -1,0 +1,164 @@
+//! Maps of the point at which a pattern is evaluated, which need not be affine.
+
+use core::f64::consts::TAU;
+use durer_math::{F8, Point3, Vec3, elementary};
+use durer_scene::{Around, BlackHole, PointWarp, Wrap};
+
+use super::field::Stir;
+use super::place::Place;
+use crate::vector::{floor, length, unit};
+
+/// A [`PointWarp`] with its constants precomputed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Warp {
+    Placed(Place),
+    Stir(Stir),
+    Repeat { axis: usize, width: f64, offset: Vec3, flip: [bool; 3] },
+    BlackHole(BlackHole),
+    Wrapped(Wrap),
+    Planar(Vec3, f64),
+}
+
+impl Warp {
+    pub(crate) fn new(warp: &PointWarp) -> Self {
+        match warp {
+            PointWarp::Placed(placement) => Self::Placed(Place::new(placement.affine())),
+            PointWarp::Turbulence(turbulence) => Self::Stir(Stir::new(turbulence)),
+            &PointWarp::Repeat { axis, width, offset, flip } => Self::Repeat { axis, width, offset, flip },
+            PointWarp::BlackHole(hole) => Self::BlackHole(*hole),
+            PointWarp::Wrapped(wrap) => Self::Wrapped(*wrap),
+            &PointWarp::Planar { normal, distance } => Self::Planar(unit(normal), distance),
+        }
+    }
+
+    /// The image of a point.
+    pub(crate) fn image(&self, p: Point3) -> Point3 {
+        match self {
+            Self::Placed(place) => place.inside(p),
+            Self::Stir(stir) => stir.moved(Vec3::<F8>::splat(p.to_vec()).to_point()).to_vec().lane(0).to_point(),
+            Self::Repeat { axis, width, offset, flip } => repeated(p, (*axis, *width), *offset, *flip),
+            Self::BlackHole(hole) => drawn(p, hole),
+            Self::Wrapped(wrap) => unrolled(p, wrap),
+            Self::Planar(normal, distance) => flattened(p, *normal, *distance),
+        }
+    }
+
+    /// The images of eight points.
+    pub(crate) fn images(&self, p: Point3<F8>) -> Point3<F8> {
+        match self {
+            Self::Placed(place) => place.inside_lanes(p),
+            Self::Stir(stir) => stir.moved(p),
+            _ => {
+                let mut images = p.to_vec();
+                for i in 0..durer_math::lanes::LANES {
+                    images.set_lane(i, self.image(p.to_vec().lane(i).to_point()).to_vec());
+                }
+                images.to_point()
+            }
+        }
+    }
+}
+
+/// Slices of a pattern side by side.
+fn repeated(p: Point3, (axis, width): (usize, f64), offset: Vec3, flip: [bool; 3]) -> Point3 {
+    let mut p = p.to_array();
+    let number = floor(p[axis] / width);
+    let is_odd = number * 0.5 != floor(number * 0.5);
+    p[axis] -= number * width;
+    if is_odd {
+        for (i, x) in p.iter_mut().enumerate().filter(|(i, _)| flip[*i]) {
+            *x = if i == axis { width - *x } else { -*x };
+        }
+    }
+    Point3::new(p[0], p[1], p[2]) + offset * number
+}
+
+/// A point moved towards the centre of a black hole, or away from it.
+fn drawn(p: Point3, hole: &BlackHole) -> Point3 {
+    let (repeat, mut block) = (hole.repeat.to_array(), p.to_array());
+    let mut number = [0.0; 3];
+    for axis in 0..3 {
+        if repeat[axis] > 0.0 {
+            number[axis] = floor(block[axis] / repeat[axis]);
+            block[axis] -= number[axis] * repeat[axis];
+        }
+    }
+    let mut centre = hole.centre;
+    if hole.scatter != Vec3::ZERO {
+        centre = centre + shift(number, hole.scatter);
+    }
+    let inside = Point3::new(block[0], block[1], block[2]);
+    let away = inside - centre;
+    let distance = length(away);
+    if distance >= hole.radius || distance == 0.0 {
+        return p;
+    }
+    let closeness = (hole.radius - distance) / hole.radius;
+    let force = elementary::pow(closeness, hole.falloff) * hole.strength;
+    // No point moves farther than its distance.
+    let force = force.min(1.0);
+    p + away * if hole.inverse { -force } else { force }
+}
+
+/// A random shift for each block, from 0 to `most` along each axis.
+fn shift(block: [f64; 3], most: Vec3) -> Vec3 {
+    let part = |salt: f64| {
+        let [x, y, z] = block;
+        super::field::cell_number(Point3::new(x + 0.5, y + 0.5, z + 0.5 + salt))
+    };
+    Vec3::new(most.x * part(0.0), most.y * part(4096.0), most.z * part(8192.0))
+}
+
+/// The point of the flat pattern that lies at `p`.
+fn unrolled(p: Point3, wrap: &Wrap) -> Point3 {
+    let Vec3 { x, y, z } = p.to_vec();
+    let across = (x * x + z * z).sqrt();
+    let turn = angle(x, z);
+    let (u, v, distance) = match wrap.around {
+        Around::Cylinder => (turn, y, across),
+        Around::Sphere => (turn, elementary::atan2(y, across) / (TAU * 0.5) + 0.5, length(p.to_vec())),
+        Around::Torus(major) => {
+            let out = across - major;
+            let around = elementary::atan2(y, out) / TAU;
+            (turn, around + 0.5, (out * out + y * y).sqrt())
+        }
+    };
+    let (u, v) = match wrap.growth {
+        0.0 => (u, v),
+        growth => {
+            let factor = elementary::pow(distance, growth);
+            (u * factor, if matches!(wrap.around, Around::Cylinder) { v } else { v * factor })
+        }
+    };
+    let flat = Vec3::new(u, v, distance);
+    along(flat, wrap.orientation)
+}
+
+/// The angle around the y axis, in turns from 0 to 1.
+fn angle(x: f64, z: f64) -> f64 {
+    let turn = elementary::atan2(z, x) / TAU;
+    turn - floor(turn)
+}
+
+/// A point of the flat pattern, which is seen along `orientation` instead of z.
+fn along(flat: Vec3, orientation: Vec3) -> Point3 {
+    let Vec3 { x: u, y: v, z: d } = flat;
+    if orientation.x != 0.0 {
+        Point3::new(d, v, u)
+    } else if orientation.y != 0.0 {
+        Point3::new(u, d, v)
+    } else {
+        Point3::new(u, v, d)
+    }
+}
+
+/// The point of the plane `z = d` for a point of another plane with the unit normal `n` and the
+/// distance `d` from the origin. This is the scene language's map, which is a rotation only for
+/// normals along an axis; it was fitted to POV-Ray's values.
+fn flattened(p: Point3, n: Vec3, d: f64) -> Point3 {
+    Point3::new(
+        (n.y + n.z) * p.x + n.x * d,
+        (n.x + n.z) * p.y - n.y * d,
+        n.y * p.y - n.x * p.x + n.z * d,
+    )
+}

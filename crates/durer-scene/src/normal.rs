@@ -1,0 +1,65 @@
+//! Normals that look bumpy: perturbations of a surface's normal.
+
+use crate::{Pattern, Placement, PointWarp, Ripples, Value};
+
+/// A perturbation of a surface's normal at each point of space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Normal {
+    /// How the normal is perturbed.
+    pub body: NormalBody,
+    /// From the pattern's space to that of the texture (or normal) around it.
+    pub placement: Placement,
+    /// Whether bumps keep their slope, and not their depth, when they are scaled.
+    pub keeps_slope: bool,
+}
+
+/// How a normal is perturbed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NormalBody {
+    /// The surface looks like a landscape.
+    Height(Box<Height>),
+    /// A vector is added to the normal.
+    Push {
+        /// Maps of the point before.
+        warps: Vec<PointWarp>,
+        /// The vector.
+        push: Push,
+        /// Its factor.
+        amount: f64,
+    },
+    /// Other normals, selected or mixed by a pattern. They are placed in this normal's space.
+    Normals(Box<Pattern<Normal>>),
+}
+
+/// A landscape whose heights are a pattern's values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Height {
+    /// Maps of the point before.
+    pub warps: Vec<PointWarp>,
+    /// The heights.
+    pub value: Value,
+    /// Bends the heights: at a value it says the height and its slope. If empty, the heights stay.
+    pub slopes: Vec<(f64, [f64; 2])>,
+    /// The factor of the heights.
+    pub amount: f64,
+    /// The distance of the points at which heights are compared.
+    pub accuracy: f64,
+}
+
+/// A vector that is added to a normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Push {
+    /// Noise.
+    Bumps,
+    /// Noise that is strong in few places.
+    Dents,
+    /// Octaves of noise.
+    Wrinkles,
+    /// Waves around random centres.
+    Ripples(Ripples),
+    /// Cushions in unit cubes. The two numbers bend the seam.
+    Quilted(f64, f64),
+    /// A random vector for all points nearest to one of some random points, which are this far
+    /// apart.
+    Facets(f64),
+}

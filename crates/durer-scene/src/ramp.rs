@@ -1,0 +1,143 @@
+//! The functions that continuous patterns grow with.
+
+use std::sync::Arc;
+
+use durer_math::Vec3;
+use durer_surfaces::tape::Formula;
+
+use crate::{Pigment, Turbulence};
+
+/// The function that a continuous pattern grows with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ramp {
+    /// From 0 to 1 in each unit along a direction (of any length but zero), then from 0 again.
+    Gradient(Vec3),
+    /// From 1 at the origin to 0 on the unit sphere and beyond it.
+    Spherical,
+    /// From 1 on the y axis to 0 at a distance of 1.
+    Cylindrical,
+    /// From 1 on the plane `y = 0` to 0 at a distance of 1.
+    Planar,
+    /// From 1 at the origin to 0 on the cube with sides of 2 and beyond it.
+    Boxed,
+    /// The distance from the origin.
+    Onion,
+    /// The square of the mean of the sines of the coordinates.
+    Leopard,
+    /// The angle around the y axis, in turns.
+    Radial,
+    /// The coordinate x, stirred in its own way.
+    Marble(Option<Turbulence>),
+    /// The distance from the z axis, stirred in its own way.
+    Wood(Option<Turbulence>),
+    /// A spiral around the z axis.
+    Spiral {
+        /// The number of arms.
+        arms: f64,
+        /// Whether a second spiral is laid over it.
+        double: bool,
+        /// Stirs the spiral in its own way.
+        turbulence: Option<Turbulence>,
+    },
+    /// Cushions in unit cubes. The two numbers bend the seam at its bottom and at its top.
+    Quilted(f64, f64),
+    /// Noise.
+    Noise(Grain),
+    /// A random number for each unit cube.
+    Cells,
+    /// Waves around random centres.
+    Ripples(Ripples),
+    /// Distances to random points.
+    Crackle(Crackle),
+    /// The fate of points of the plane `z = 0` in an iteration.
+    Fractal(Fractal),
+    /// A formula of x, y and z.
+    Formula(Arc<Formula>),
+    /// The grey value of a pigment.
+    Pigment(Box<Pigment>),
+}
+
+/// A pattern made of noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// The kind of the pattern.
+    pub kind: GrainKind,
+    /// Whether the noise is the first generator's, which is narrower.
+    pub old: bool,
+}
+
+/// The kinds of patterns made of noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GrainKind {
+    /// The noise itself.
+    Bozo,
+    /// The cube of the noise.
+    Dents,
+    /// Octaves of noise.
+    Wrinkles,
+    /// Octaves of folded noise.
+    Granite,
+    /// Bands along z, stirred by this turbulence times the amount.
+    Agate(f64, Turbulence),
+}
+
+/// Octaves of noise that move points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Octaves {
+    /// The number of octaves.
+    pub count: u32,
+    /// The factor of frequency from one octave to the next.
+    pub lambda: f64,
+    /// The factor of strength from one octave to the next.
+    pub omega: f64,
+}
+
+/// Waves around ten random centres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ripples {
+    /// Whether their lengths differ from centre to centre.
+    pub waves: bool,
+    /// The number of waves in each unit.
+    pub frequency: f64,
+    /// The shift of the waves.
+    pub phase: f64,
+}
+
+/// A number made of the distances to the nearest of random points, one in each unit cube.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crackle {
+    /// The factors of the distances to the nearest point, the second and the third.
+    pub form: Vec3,
+    /// The exponent of the distance: 2 for Euclid's.
+    pub metric: f64,
+    /// A distance along a fourth axis.
+    pub offset: f64,
+    /// Whether all points with the same nearest point have one number.
+    pub solid: bool,
+}
+
+/// An iteration in the complex plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fractal {
+    /// The function that is iterated.
+    pub map: FractalMap,
+    /// The constant; `None` if it is the point itself.
+    pub constant: Option<(f64, f64)>,
+    /// The greatest number of iterations.
+    pub iterations: u32,
+    /// The number for points that escape: its kind, 0 to 6, and its factor.
+    pub exterior: (u8, f64),
+    /// The number for points that do not: its kind, 0 to 6, and its factor.
+    pub interior: (u8, f64),
+}
+
+/// A function that is iterated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FractalMap {
+    /// `z^n + c`.
+    Power(u32),
+    /// The first model of a magnet.
+    Magnet1,
+    /// The second model of a magnet.
+    Magnet2,
+}
