@@ -26,7 +26,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AreaLight
             | Autostop
             | Average
-            | BicubicPatch
             | BlackHole
             | BlurSamples
             | Bmp
@@ -64,7 +63,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Facets
             | FalloffAngle
             | Fisheye
-            | Flatness
             | Flip
             | FocalPoint
             | Fog
@@ -180,8 +178,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Triangular
             | Ttf
             | TurbDepth
-            | Type
-            | USteps
             | Uint16be
             | Uint16le
             | Uint8
@@ -190,7 +186,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | UseColor
             | UseIndex
             | UvMapping
-            | VSteps
             | Variance
             | Vturbulence
             | Warp

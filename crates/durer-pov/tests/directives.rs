@@ -198,16 +198,16 @@ fn warnings_that_repeat_themselves_are_counted() {
 
 #[test]
 fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
-    let defined = "#declare T = bicubic_patch { 2, 0.5 } #declare S = spline { linear_spline 0,x 1,y }
+    let defined = "#declare T = text { 2, 0.5 } #declare S = spline { linear_spline 0,x 1,y }
         #declare M = texture { pigment { granite turbulence 0.5 color_map { [0 rgb 0][1 rgb 1] } } normal { bumps 1 } } texture { pigment { marble } }
         #declare P = pigment { granite turbulence 0.5 } #declare N = normal { bumps 0.5 } #declare U = union { sphere { 0, 1 } object { T } }
         #macro W() #fopen F \"x\" write #end #declare After = 7; #debug str(After,0,0)";
     assert_eq!(debug(defined), "7");
     for (use_it, word) in [
-        ("object { T }", "bicubic_patch"),
+        ("object { T }", "text"),
         ("sphere { 0, 1 texture { M } }", "normal"),
         ("sphere { 0, 1 pigment { P } }", "granite"),
-        ("object { U }", "bicubic_patch"),
+        ("object { U }", "text"),
         ("sphere { 0, 1 normal { N } }", "normal"),
         ("W()", "#fopen"),
     ] {

@@ -7,6 +7,7 @@ mod ifs;
 mod julia;
 mod mesh;
 mod modifiers;
+mod patch;
 pub(crate) mod queries;
 mod shapes;
 mod swept;
@@ -101,6 +102,7 @@ pub(crate) enum Shape {
     Sor(Rc<[[f64; 2]]>),
     /// Radii and heights.
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
+    Patch(Rc<durer_scene::Patch>),
     Ovus {
         bottom: f64,
         top: f64,
@@ -274,6 +276,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | SphereSweep
             | Sor
             | Lathe
+            | BicubicPatch
             | Ovus
             | Cubic
             | Quartic
