@@ -55,6 +55,6 @@ pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
-    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Terrain,
-    TerrainData, Warp, tape,
+    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData, NurbsError,
+    SweepSpline, Terrain, TerrainData, Warp, tape,
 };

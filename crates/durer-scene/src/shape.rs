@@ -6,7 +6,7 @@ use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, Object, SweepSpline, Terrain, Texture,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain, Texture,
     Warp,
 };
 
@@ -127,6 +127,8 @@ pub enum Shape {
     Lathe(LatheSpline, Arc<[[f64; 2]]>),
     /// A Bezier patch: a surface over the unit square.
     Patch(Arc<Patch>),
+    /// A surface of non-uniform rational B-splines.
+    Nurbs(Arc<NurbsData>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.

@@ -105,7 +105,7 @@ pub use crate::julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet};
 pub use crate::lemon::LemonError;
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
-pub use crate::patch::{BezierPatch, PatchError};
+pub use crate::patch::{BezierPatch, Nurbs, NurbsData, NurbsError, PatchError};
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

@@ -41,6 +41,9 @@ pub(crate) enum Word {
     Cyclide,
     Ifs,
     Terrain,
+    Bilinear,
+    Patch,
+    Nurbs,
 }
 
 impl Word {
@@ -65,6 +68,9 @@ impl Word {
             "cyclide" => Self::Cyclide,
             "ifs" => Self::Ifs,
             "terrain" => Self::Terrain,
+            "bilinear" => Self::Bilinear,
+            "patch" => Self::Patch,
+            "nurbs" => Self::Nurbs,
             _ => return None,
         })
     }
@@ -128,6 +134,9 @@ impl Parser<'_> {
             Word::Cyclide => return self.cyclide(),
             Word::Ifs => return self.ifs(place),
             Word::Terrain => return self.terrain(place),
+            Word::Bilinear => return self.bilinear(place),
+            Word::Patch => return self.spline_patch(place),
+            Word::Nurbs => return self.nurbs(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

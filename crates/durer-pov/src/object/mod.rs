@@ -103,6 +103,7 @@ pub(crate) enum Shape {
     /// Radii and heights.
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Patch(Rc<durer_scene::Patch>),
+    Nurbs(Rc<durer_scene::NurbsData>),
     Ovus {
         bottom: f64,
         top: f64,

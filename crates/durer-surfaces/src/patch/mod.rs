@@ -31,6 +31,7 @@
 mod cell;
 mod line;
 mod net;
+mod nurbs;
 mod point;
 mod shell;
 mod subdivide;
@@ -40,8 +41,11 @@ use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
 use crate::{Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use durer_math::{Aabb, Dyadic, Isa, Point3};
-use shell::{Control, Shell};
+use net::Net;
+use shell::Shell;
 use std::sync::Arc;
+
+pub use nurbs::{Nurbs, NurbsData, NurbsError};
 
 /// Why a [`BezierPatch`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -137,8 +141,7 @@ impl BezierPatch {
     /// are not multiplied by the weight.
     pub fn rational(size: [usize; 2], points: &[[f64; 4]]) -> Result<Self, PatchError> {
         check(size, points)?;
-        let control = Control { size, points: points.to_vec() };
-        let shell = Shell::new(&[control]).ok_or(PatchError::Nothing)?;
+        let shell = Shell::new(&[Net::new(size, points)]).ok_or(PatchError::Nothing)?;
         Ok(Self { size, points: points.into(), corners: SQUARE, shell: Arc::new(shell) })
     }
 

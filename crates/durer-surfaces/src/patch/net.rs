@@ -13,7 +13,7 @@ pub(super) struct Net {
 }
 
 /// `a + t (b - a)`.
-fn between(a: Dd, b: Dd, t: Dd) -> Dd {
+pub(super) fn between(a: Dd, b: Dd, t: Dd) -> Dd {
     a + t * (b - a)
 }
 
@@ -45,6 +45,15 @@ fn cut(curve: &mut [Homogeneous<Dd>], from: f64, to: f64) {
 }
 
 impl Net {
+    /// The net of these points and weights, `[x, y, z, w]`: products of two f64 are exact.
+    pub(super) fn new(size: [usize; 2], points: &[Homogeneous<f64>]) -> Self {
+        let times = |p: &Homogeneous<f64>| {
+            let of = |k: usize| Dd::product(p[k], p[3]);
+            [of(0), of(1), of(2), Dd::from(p[3])]
+        };
+        Self { size, points: points.iter().map(times).collect() }
+    }
+
     /// The part of the patch in a box of parameters, which may reach beyond the patch.
     pub(super) fn part(&self, from: [f64; 2], to: [f64; 2]) -> Self {
         let mut out = self.clone();

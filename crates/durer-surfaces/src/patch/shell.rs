@@ -36,13 +36,6 @@ pub(super) struct Shell {
     tree: Tree,
 }
 
-/// The control points of one patch: `size` of them along both parameters, with weights.
-#[derive(Clone, Debug)]
-pub(super) struct Control {
-    pub(super) size: [usize; 2],
-    pub(super) points: Vec<Homogeneous<f64>>,
-}
-
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
@@ -55,30 +48,34 @@ thread_local! {
 }
 
 impl Shell {
-    /// The shell of patches whose points are finite and whose weights are positive; `None` if all
-    /// points are the same.
-    pub(super) fn new(patches: &[Control]) -> Option<Self> {
-        let points = || patches.iter().flat_map(|patch| &patch.points);
-        let hull = Aabb::from_points(points().map(|p| Point3::new(p[0], p[1], p[2])));
+    /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
+    /// are the same.
+    pub(super) fn new(nets: &[Net]) -> Option<Self> {
+        let points = || nets.iter().flat_map(|net| &net.points);
+        let place = |p: &Homogeneous<Dd>| {
+            let w = p[3].to_f64();
+            Point3::new(p[0].to_f64() / w, p[1].to_f64() / w, p[2].to_f64() / w)
+        };
+        let hull = Aabb::from_points(points().map(place));
         let centre = hull.centre();
         let reach = hull.reach_from(centre);
         if reach == 0.0 {
             return None;
         }
         let scale = exponent(reach) + 1;
-        let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3]));
-        let rational = points().any(|p| p[3] != heaviest);
-        let weight_scale = exponent(heaviest) + 1;
-        let middle = [centre.x, centre.y, centre.z];
+        let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3].to_f64()));
+        let rational = points().any(|p| p[3] != Dd::from(heaviest));
+        // Without weights all are 1.
+        let weight_scale = if rational { exponent(heaviest) + 1 } else { 0 };
+        let middle = [centre.x, centre.y, centre.z].map(Dd::from);
         let (mut all, mut faces) = (Vec::new(), Vec::new());
-        for (face, patch) in patches.iter().enumerate() {
-            let about = |p: &Homogeneous<f64>| {
-                let w = if rational { Dd::from(scale2(p[3], -weight_scale)) } else { Dd::ONE };
-                let of = |k: usize| Dd::difference(p[k], middle[k]).scale2(-scale) * w;
-                [of(0), of(1), of(2), w]
+        for (face, net) in nets.iter().enumerate() {
+            let about = |p: &Homogeneous<Dd>| {
+                let of = |k: usize| (p[k] - middle[k] * p[3]).scale2(-scale - weight_scale);
+                [of(0), of(1), of(2), p[3].scale2(-weight_scale)]
             };
-            let net = Net { size: patch.size, points: patch.points.iter().map(about).collect() };
-            faces.push(Face { size: patch.size, net: net.relative([0.0; 3]).into() });
+            let net = Net { size: net.size, points: net.points.iter().map(about).collect() };
+            faces.push(Face { size: net.size, net: net.relative([0.0; 3]).into() });
             cells(&net, rational, face as u32, &mut all);
         }
         let boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
@@ -89,7 +86,7 @@ impl Shell {
         let units = units.expanded(room);
         let bounds = Aabb::new(back(units.min), back(units.max));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude());
-        let bounds = bounds.expanded(room).intersection(hull);
+        let bounds = bounds.expanded(room).intersection(hull.expanded(room));
         let cells = order.iter().map(|&i| all[i as usize].clone()).collect();
         Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree })
     }
@@ -156,6 +153,15 @@ fn overlap(a: &Found, b: &Found) -> bool {
     (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() <= a.radius[k] + b.radius[k])
 }
 
+/// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
+/// the same place of the line, in the same direction.
+#[inline(always)]
+fn is_shared(a: &Found, b: &Found) -> bool {
+    let on_edge =
+        |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
+    a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+}
+
 /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
 /// each other and in which nothing is proven.
 #[inline(always)]
@@ -167,7 +173,11 @@ fn distinct(found: &mut Vec<Found>) -> &[Found] {
         for i in 0..found.len() {
             let new = found[i];
             let same = |old: &Found| {
-                old.face == new.face && (is_held(&new, old) || is_held(old, &new) || overlap(&new, old))
+                if old.face == new.face {
+                    is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
+                } else {
+                    is_shared(&new, old)
+                }
             };
             match found[..kept].iter().position(same) {
                 Some(k) if found[k].sign != 0 => {
@@ -215,7 +225,8 @@ fn join_all(found: &mut Vec<Found>) {
 /// A box that holds two others.
 fn joined(a: &Found, b: &Found) -> Found {
     let (mut out, wider) = (*a, 1.0 + 4.0 * U);
-    for k in 0..2 {
+    // Parameters of different patches do not mix.
+    for k in 0..if a.face == b.face { 2 } else { 0 } {
         let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
         let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
         (out.uv[k], out.radius[k]) = (0.5 * (low + high), 0.5 * (high - low) * wider + U);
