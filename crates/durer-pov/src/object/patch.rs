@@ -147,7 +147,7 @@ impl Parser<'_> {
         };
         let mut size = [0; 2];
         for n in &mut size {
-            *n = self.points_along(&format!("a patch of {name}"), least, most)?;
+            *n = self.whole_from(&format!("the points along a parameter of a {name} patch"), least, most)?;
         }
         let points = self.weighted_net(size)?;
         let uv = if basis == Basis::Bezier { self.uv_corners()? } else { [[0.0; 2]; 4] };
@@ -183,12 +183,12 @@ impl Parser<'_> {
             let at = self.here();
             if self.small_word("degree")? {
                 for degree in &mut data.degree {
-                    *degree = self.points_along("a degree of a nurbs", 1, 9)?;
+                    *degree = self.whole_from("a degree of a nurbs", 1, 9)?;
                 }
                 has_degree = true;
             } else if self.small_word("points")? {
                 for n in &mut data.size {
-                    *n = self.points_along("a net of a nurbs", 2, MOST_POINTS)?;
+                    *n = self.whole_from("the points along a parameter of a nurbs", 2, MOST_POINTS)?;
                 }
                 data.points = self.weighted_net(data.size)?;
                 has_points = true;
@@ -227,7 +227,7 @@ impl Parser<'_> {
 
     /// How many knots, and these.
     fn knots(&mut self) -> Result<Vec<f64>> {
-        let count = self.points_along("a list of knots", 2, MOST_POINTS)?;
+        let count = self.whole_from("the number of knots", 2, MOST_POINTS)?;
         let mut knots = Vec::new();
         for n in 0..count {
             self.peek()?;
@@ -245,13 +245,13 @@ impl Parser<'_> {
     }
 
     /// A whole number in a range, and the comma behind it.
-    fn points_along(&mut self, what: &str, least: usize, most: usize) -> Result<usize> {
+    fn whole_from(&mut self, what: &str, least: usize, most: usize) -> Result<usize> {
         self.peek()?;
         let at = self.here();
         let n = self.float()?;
         self.skip_comma()?;
         if n.fract() != 0.0 || !(least as f64..=most as f64).contains(&n) {
-            let text = format!("{what} is a whole number from {least} to {most} along each parameter, not {n}");
+            let text = format!("{what} must be a whole number from {least} to {most}, not {n}");
             return Err(Error::invalid(at, text));
         }
         Ok(n as usize)

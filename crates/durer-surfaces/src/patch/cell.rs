@@ -6,7 +6,7 @@
 //! bound on `I - Y F'` for a ray along the normal: second derivatives, divided by slopes.
 
 use super::net::{Homogeneous, Net, steepest};
-use durer_math::{Aabb, Point3, U, Vec3};
+use durer_math::{Aabb, Isa, Point3, U, Vec3};
 
 /// How far beyond its borders a cell's bounds hold, in widths of the cell.
 pub(super) const MARGIN: f64 = 1.0 / 16.0;
@@ -128,6 +128,7 @@ pub(super) fn point_of(net: &[Homogeneous<f64>], size: [usize; 2], x: [f64; 2]) 
 
 impl Cell {
     /// The part of a patch in a box of parameters.
+    #[inline(always)]
     fn new(patch: &Net, rational: bool, face: u32, from: [f64; 2], width: [f64; 2]) -> Self {
         let size = patch.size;
         let to = [from[0] + width[0], from[1] + width[1]];
@@ -231,6 +232,14 @@ impl Cell {
 
 /// The cells of a patch.
 pub(super) fn cells(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || cut_up(patch, rational, face, out),
+    );
+}
+
+#[inline(always)]
+fn cut_up(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
     let mut open = vec![([0.0; 2], [0_u32; 2])];
     while let Some((from, halved)) = open.pop() {
         let width = halved.map(|n| durer_math::scale::pow2(-(n as i32)));

@@ -50,8 +50,11 @@ impl Line {
         let slope = [d[0] / d[2], d[1] / d[2]];
         // |d_z| is 1 at least; what is known worse than that is not known at all.
         let known = (d[2].abs() - d_err[2]).max(0.0);
-        let slope_err =
-            [0, 1].map(|i| (slope[i].abs().mul_add(d_err[2], d_err[i]) / known + U * slope[i].abs()) * ROUNDED);
+        let mut slope_err = [0.0; 2];
+        for i in 0..2 {
+            let size = slope[i].abs();
+            slope_err[i] = (size.mul_add(d_err[2], d_err[i]) / known + U * size) * ROUNDED;
+        }
         Self { axes, o, o_err, d_z: d[2], d_z_err: d_err[2], slope, slope_err }
     }
 }
@@ -114,8 +117,10 @@ impl<'a> View<'a> {
             limits: Limits { e: [0.0; 2], e_j: [0.0; 2], h: [[0.0; 3]; 2] },
             e_control: [0.0; 2],
         };
-        let size = |k: usize| o[k].abs().mul_add(heaviest, cell.reach);
-        let times = |k: usize| 1.0 + o[k].abs() * weight_err;
+        let size = #[inline(always)]
+        |k: usize| o[k].abs().mul_add(heaviest, cell.reach);
+        let times = #[inline(always)]
+        |k: usize| 1.0 + o[k].abs() * weight_err;
         let z = size(2);
         for i in 0..2 {
             let slope = line.slope[i].abs();
@@ -124,8 +129,10 @@ impl<'a> View<'a> {
             let rounding = U * (2.0 * size(i) + 2.0 * slope * z);
             view.e_control[i] = (cell.e_net.mul_add(both, given) + rounding) * ROUNDED;
             view.limits.e[i] = cell.e_point.mul_add(both, view.e_control[i]) * ROUNDED;
-            let steep = |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
-            let first = |d: &Homogeneous<f64>| {
+            let steep = #[inline(always)]
+            |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
+            let first = #[inline(always)]
+            |d: &Homogeneous<f64>| {
                 2.0 * U * slope.mul_add(steep(d, 2), steep(d, i)) + line.slope_err[i] * steep(d, 2)
                     + d[3] * slope.mul_add(o_err[2], o_err[i])
             };
@@ -143,9 +150,11 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn sheared(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
         let axes = &self.line.axes;
-        let of = |k: usize| (-self.o[k]).mul_add(p[3], p[axes[k]]);
-        let z = of(2);
-        ([0, 1].map(|i| (-self.line.slope[i]).mul_add(z, of(i))), z)
+        let of = #[inline(always)]
+        |k: usize| (-self.o[k]).mul_add(p[3], p[axes[k]]);
+        let (x, y, z) = (of(0), of(1), of(2));
+        let [kx, ky] = self.line.slope;
+        ([(-kx).mul_add(z, x), (-ky).mul_add(z, y)], z)
     }
 
     #[inline(always)]
@@ -177,7 +186,12 @@ impl<'a> View<'a> {
     pub(super) fn zero(&self, x: [f64; 2], limits: &Limits, region: &[[f64; 2]; 2]) -> Option<Zero> {
         // Errors are bounded up to the cell's edge.
         let within = region.map(|[from, to]| [from.max(-EDGE), to.min(1.0 + EDGE)]);
-        limits.zero(x, (region, &within), |x| self.local(&self.cell.at(self.rational, x)))
+        limits.zero(
+            x,
+            (region, &within),
+            #[inline(always)]
+            |x| self.local(&self.cell.at(self.rational, x)),
+        )
     }
 
     /// A parameter of the cell as one of the patch.
@@ -220,7 +234,7 @@ impl<'a> View<'a> {
         let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
         Found {
             face: cell.face,
-            uv: [0, 1].map(|k| self.in_patch(k, zero.x[k])),
+            uv: [self.in_patch(0, zero.x[0]), self.in_patch(1, zero.x[1])],
             radius: [0, 1].map(|k| (zero.radius[k] * cell.width[k] + U) * ROUNDED),
             alone: [0, 1].map(|k| zero.alone * cell.width[k]),
             s,
@@ -231,6 +245,7 @@ impl<'a> View<'a> {
     }
 
     /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.
+    #[inline(always)]
     fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
         let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at| {
             let x = [0, 1].map(|k| f64::mul_add(at[k], width[k], from[k]));
@@ -242,6 +257,7 @@ impl<'a> View<'a> {
     }
 
     /// A box in the cell in which crossings cannot be told from misses.
+    #[inline(always)]
     pub(super) fn unresolved(&self, from: [f64; 2], width: [f64; 2]) -> Found {
         let (cell, z_axis) = (self.cell, self.line.axes[2]);
         let half = width.map(|w| 0.5 * w);
@@ -259,7 +275,7 @@ impl<'a> View<'a> {
         let (s, s_err) = self.along(z, z_err * ROUNDED);
         Found {
             face: cell.face,
-            uv: [0, 1].map(|k| self.in_patch(k, x[k])),
+            uv: [self.in_patch(0, x[0]), self.in_patch(1, x[1])],
             radius: [0, 1].map(|k| half[k] * cell.width[k] + U),
             alone: [0.0; 2],
             s,

@@ -13,6 +13,7 @@ pub(super) struct Net {
 }
 
 /// `a + t (b - a)`.
+#[inline(always)]
 pub(super) fn between(a: Dd, b: Dd, t: Dd) -> Dd {
     a + t * (b - a)
 }
@@ -20,9 +21,11 @@ pub(super) fn between(a: Dd, b: Dd, t: Dd) -> Dd {
 /// The control points of a curve between the parameters `from` and `to`: the blossom at `from`
 /// (`i` times less) and `to` (`i` times), by de Casteljau's algorithm (L. Ramshaw, "Blossoms are
 /// polar forms", *Computer Aided Geometric Design* 6 (1989) 323-358).
+#[inline(always)]
 fn cut(curve: &mut [Homogeneous<Dd>], from: f64, to: f64) {
     let n = curve.len();
-    let steps = |curve: &mut [Homogeneous<Dd>], t: Dd, backwards: bool| {
+    let steps = #[inline(always)]
+    |curve: &mut [Homogeneous<Dd>], t: Dd, backwards: bool| {
         for level in 1..n {
             for i in 0..n - level {
                 // From the front the last point stays, from behind the first.
@@ -55,6 +58,7 @@ impl Net {
     }
 
     /// The part of the patch in a box of parameters, which may reach beyond the patch.
+    #[inline(always)]
     pub(super) fn part(&self, from: [f64; 2], to: [f64; 2]) -> Self {
         let mut out = self.clone();
         let [nu, nv] = self.size;
@@ -78,9 +82,12 @@ impl Net {
     }
 
     /// Each point relative to `base`, rounded: coordinates less `base` times the weight.
+    #[inline(always)]
     pub(super) fn relative(&self, base: [f64; 3]) -> Vec<Homogeneous<f64>> {
-        let about = |p: &Homogeneous<Dd>| {
-            let of = |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
+        let about = #[inline(always)]
+        |p: &Homogeneous<Dd>| {
+            let of = #[inline(always)]
+            |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
             [of(0), of(1), of(2), p[3].to_f64()]
         };
         self.points.iter().map(about).collect()

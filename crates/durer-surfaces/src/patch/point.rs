@@ -31,17 +31,20 @@ pub(super) struct Jet {
 
 impl Jet {
     /// `S_u x S_v`.
+    #[inline(always)]
     fn area(&self) -> Vec3 {
         self.pu.cross(self.pv)
     }
 
     /// How that changes along a direction of the parameters.
+    #[inline(always)]
     fn area_along(&self, [du, dv]: [f64; 2]) -> Vec3 {
         (self.puu.cross(self.pv) + self.pu.cross(self.puv)) * du
             + (self.puv.cross(self.pv) + self.pu.cross(self.pvv)) * dv
     }
 
     /// A bound on the normal curvatures, twice the largest; infinite without a tangent plane.
+    #[inline(always)]
     fn bend(&self, n: Vec3) -> f64 {
         let (e, f, g) = (self.pu.dot(self.pu), self.pu.dot(self.pv), self.pv.dot(self.pv));
         let (l, m, k) = (n.dot(self.puu), n.dot(self.puv), n.dot(self.pvv));
@@ -55,6 +58,7 @@ impl Jet {
 
 impl Face {
     /// The point at `uv` and its derivatives, in units.
+    #[inline(always)]
     pub(super) fn jet(&self, uv: [f64; 2]) -> Jet {
         let [nu, nv] = self.size;
         let (bu, bv) = (powers(nu, uv[0]), powers(nv, uv[1]));
@@ -97,10 +101,11 @@ impl Face {
     ///
     /// Where an edge is collapsed to a point, `S_u x S_v` vanishes; its limit from the middle of the
     /// patch is the direction of its own derivative, unless that vanishes too.
+    #[inline(always)]
     pub(super) fn normal(&self, uv: [f64; 2], jet: &Jet) -> Option<(Vec3, Jet)> {
         let inward = [0.5 - uv[0], 0.5 - uv[1]];
         let unit = |v: Vec3| Some(v * (1.0 / v.length())).filter(|n| n.is_finite() && *n != Vec3::ZERO);
-        let beside = self.jet([0, 1].map(|k| f64::mul_add(ASIDE, inward[k], uv[k])));
+        let beside = self.jet([ASIDE * inward[0] + uv[0], ASIDE * inward[1] + uv[1]]);
         let most = jet.pu.max_abs().max(beside.pu.max_abs()) * jet.pv.max_abs().max(beside.pv.max_abs());
         let n = jet.area();
         if n.max_abs() > FLAT * most {
@@ -115,6 +120,7 @@ impl Face {
 }
 
 /// The Bernstein polynomials of `n` points at `t` and their first two derivatives.
+#[inline(always)]
 fn powers(n: usize, t: f64) -> [[f64; MOST]; 3] {
     let (b, d) = basis(n, t);
     let mut dd = [0.0; MOST];
@@ -131,6 +137,7 @@ fn powers(n: usize, t: f64) -> [[f64; MOST]; 3] {
 
 impl Shell {
     /// The point of a root: with its bounds and its normal, and slopes along the parameters.
+    #[inline(always)]
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
         let Some(face) = self.faces.get(root.face as usize) else {
             return SurfacePoint::unknown(self.centre);

@@ -11,7 +11,7 @@
 use super::cell::{MARGIN, basis, power, sums};
 use super::line::{Found, View, touches};
 use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED};
-use durer_math::U;
+use durer_math::{Isa, U};
 
 /// The most parts of a cell that one ray looks at; the rest stays unresolved. A tangent needs a few
 /// hundred.
@@ -30,6 +30,7 @@ struct Part {
 }
 
 /// The least and the greatest of a combination of both functions.
+#[inline(always)]
 fn range(f: &[[f64; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for [x, y] in f {
@@ -41,6 +42,7 @@ fn range(f: &[[f64; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
 
 impl Part {
     /// Whether a combination of the functions is not zero in the part.
+    #[inline(always)]
     fn is_clear_of(&self, by: [f64; 2]) -> bool {
         let (low, high) = range(&self.f, by);
         let most = low.abs().max(high.abs());
@@ -49,12 +51,14 @@ impl Part {
     }
 
     /// The size that a combination's terms have at most.
+    #[inline(always)]
     fn most(&self, by: [f64; 2]) -> f64 {
         self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x).abs() + (by[1] * y).abs()))
     }
 
     /// The value and slopes in the middle and bounds on second derivatives, by the part's own
     /// parameters from 0 to 1.
+    #[inline(always)]
     fn local(&self, [nu, nv]: [usize; 2]) -> (Local, Limits) {
         let ((bu, du), (bv, dv)) = (basis(nu, 0.5), basis(nv, 0.5));
         let mut local = Local { f: [0.0; 2], j: [[0.0; 2]; 2] };
@@ -97,6 +101,7 @@ impl Part {
     }
 
     /// Both halves along a parameter.
+    #[inline(always)]
     fn halves(&self, nu: usize, along: usize) -> [Self; 2] {
         let nv = self.f.len() / nu;
         let (n, step, lines, next) = if along == 0 { (nu, 1, nv, nu) } else { (nv, nu, nu, 1) };
@@ -127,8 +132,10 @@ impl Part {
 
 /// The combinations of both functions that change most slowly and fastest from the middle: the
 /// left singular vectors of the slopes.
+#[inline(always)]
 fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let dot = |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
+    let dot = #[inline(always)]
+    |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
     let (p, q, r) = (dot(j[0], j[0]), dot(j[0], j[1]), dot(j[1], j[1]));
     // The direction of the larger eigenvalue of J J'.
     let half = 0.5 * (p - r);
@@ -147,9 +154,20 @@ fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
 /// miss.
 #[inline(never)]
 pub(super) fn meet(view: &View<'_>, out: &mut Vec<Found>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || meet_here(view, out),
+    );
+}
+
+#[inline(always)]
+fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
     let cell = view.cell;
     let [nu, nv] = cell.size;
-    let f = cell.net.iter().map(|p| view.sheared(p).0).collect();
+    let mut f = Vec::with_capacity(cell.net.len());
+    for p in &cell.net {
+        f.push(view.sheared(p).0);
+    }
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
     let mut steps = 0;
     while let Some(part) = open.pop() {
@@ -168,7 +186,8 @@ pub(super) fn meet(view: &View<'_>, out: &mut Vec<Found>) {
         };
         if let Some([x, y]) = start {
             let at = [0.5 + x, 0.5 + y];
-            let x = [0, 1].map(|k| at[k].mul_add(part.width[k], part.from[k]));
+            let [w, h] = part.width;
+            let x = [f64::mul_add(at[0], w, part.from[0]), f64::mul_add(at[1], h, part.from[1])];
             // The limits of the part by the cell's parameters; they hold in the part's own margin.
             let mut own = view.limits;
             for i in 0..2 {
@@ -207,6 +226,7 @@ pub(super) fn meet(view: &View<'_>, out: &mut Vec<Found>) {
 
 impl Part {
     /// By how much the functions change along a parameter.
+    #[inline(always)]
     fn change(&self, nu: usize, along: usize) -> f64 {
         let nv = self.f.len() / nu;
         let mut most = 0.0_f64;
