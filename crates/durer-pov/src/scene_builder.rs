@@ -449,6 +449,14 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points.len() * 16);
             scene::Shape::Lathe(*spline, Arc::from(&points[..]))
         }
+        Shape::Patch(patch) => {
+            limits::charge_for_good(patch.points.len() * 32);
+            scene::Shape::Patch(Arc::new((**patch).clone()))
+        }
+        Shape::Nurbs(data) => {
+            limits::charge_for_good(data.points.len() * 32);
+            scene::Shape::Nurbs(Arc::new((**data).clone()))
+        }
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
             let (base, apex) = (point(base), point(apex));

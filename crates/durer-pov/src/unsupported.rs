@@ -21,7 +21,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ArcAngle
             | AreaIllumination
             | Autostop
-            | BicubicPatch
             | BlurSamples
             | Bmp
             | Bokeh
@@ -41,7 +40,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Exr
             | Extinction
             | FalloffAngle
-            | Flatness
             | FocalPoint
             | Gamma
             | Gather
@@ -112,8 +110,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Tiles
             | Tiling
             | Translucency
-            | Type
-            | USteps
             | Uint16be
             | Uint16le
             | Uint8
@@ -121,7 +117,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | UseColor
             | UseIndex
             | UvMapping
-            | VSteps
             | Variance
             | Vturbulence
             | Width

@@ -138,7 +138,7 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    for word in ["bicubic_patch { 1, 0.5 }", "rainbow { distance 1 }"] {
+    for word in ["parametric { 1, 0.5 }", "rainbow { distance 1 }"] {
         let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
         assert_eq!(fault(word).2, expected);
     }
@@ -146,6 +146,42 @@ fn what_is_not_there_yet_is_called_by_its_name() {
     assert_eq!(fault("sphere { 0, 1 finish { irid { 0.5 } } }").2, "not supported yet: irid");
     assert_eq!(fault("camera { omnimax }").2, "not supported yet: omnimax");
     assert_eq!(fault("#fopen F \"x\" read").2, "not supported yet: #fopen");
+}
+
+#[test]
+fn patches_say_what_is_wrong_with_them() {
+    let points = "0, x, x*2, x*3, y, y+x, y+x*2, y+x*3, y*2, y*2+x, y*2+x*2, y*2+x*3, z, z+x, z+x*2, z+x*3";
+    for (text, wanted) in [
+        ("bicubic_patch { type 2 POINTS }", "the type of a bicubic_patch is 0 or 1, not 2"),
+        ("bicubic_patch { u_steps -1 type 1 POINTS }", "u_steps must not be negative: -1"),
+        ("bicubic_patch { POINTS }", "this bicubic_patch has no type: it needs `type 0` or `type 1`"),
+        ("bicubic_patch { type 1 0, x }", "expected a number, vector or colour, found `}`"),
+        (
+            "patch { 3, 17, POINTS }",
+            "the points along a parameter of a bezier_spline patch must be a whole number from 2 to 16, not 17",
+        ),
+        (
+            "patch { cubic_spline 3, 4, POINTS }",
+            "the points along a parameter of a cubic_spline patch must be a whole number from 4 to 1048576, not 3",
+        ),
+        (
+            "patch { 2, 2, 0, <1, 0, 0, -1>, y, x + y }",
+            "the weight of point 2 of row 1 must be positive, not -1",
+        ),
+        ("nurbs { points 2, 2, 0, x, y, x + y }", "this nurbs lacks `degree DU, DV`"),
+        ("nurbs { degree 40, 1 }", "a degree of a nurbs must be a whole number from 1 to 9, not 40"),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 3, 0, 0, 1 }",
+            "nurbs: 4 knots are needed along u, got 3",
+        ),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 4, 0, 0, 2, 1 }",
+            "knots must not fall: knot 4 is 1 after 2",
+        ),
+        ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { } }", "not supported yet: trim"),
+    ] {
+        assert_eq!(fault(&text.replace("POINTS", points)).2, wanted, "{text}");
+    }
 }
 
 #[test]

@@ -63,7 +63,7 @@ const MISTAKES: &[(&str, &str)] = &[
     ("#decalre A = 1;", "there is no directive `#decalre` (did you mean `#declare`?)"),
     ("#end", "#end stands in no block it belongs to"),
     ("#declare A = vturbulence(2, 0.5, 6, x);", "not supported yet: vturbulence"),
-    ("bicubic_patch { type 0 }", "not supported yet: bicubic_patch"),
+    ("bicubic_patch { flatness 0 }", "this bicubic_patch has no type: it needs `type 0` or `type 1`"),
     ("#declare P = trace(1, 0, y);", "expected an object, found a number"),
     ("cylinder { 0, 0, 1 }", "this cylinder's ends are the same point"),
     ("sphere { 0, \"one\" }", "a sphere needs a radius after its centre, found a string"),

@@ -4,9 +4,9 @@ use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
-    Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, Object as SceneObject,
-    Operation, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, StraightSweep, Sweep,
-    SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
+    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
+    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -186,6 +186,22 @@ fn lathe(points: Vec<[f64; 2]>, spline: &str) -> PyResult<Object> {
         }
     };
     checked(Shape::Lathe(spline, points.into()))
+}
+
+#[pyfunction]
+fn bezier_patch(points: Vec<[f64; 4]>, size: [usize; 2], uv: [[f64; 2]; 4]) -> PyResult<Object> {
+    checked(Shape::Patch(Arc::new(Patch { size, points, uv })))
+}
+
+#[pyfunction]
+fn nurbs(
+    points: Vec<[f64; 4]>,
+    size: [usize; 2],
+    degree: [usize; 2],
+    knots: [Vec<f64>; 2],
+    periodic: [bool; 2],
+) -> PyResult<Object> {
+    checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic })))
 }
 
 #[pyfunction]
@@ -460,6 +476,8 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surface_of_revolution, module)?)?;
     module.add_function(wrap_pyfunction!(lathe, module)?)?;
     module.add_function(wrap_pyfunction!(sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(bezier_patch, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

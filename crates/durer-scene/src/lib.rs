@@ -49,13 +49,11 @@ pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
-pub use crate::ramp::{
-    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples,
-};
+pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
-    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,
-    Spline, StraightSweep, Sweep,
+    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Patch, Prism, QuadricKind,
+    Shape, Spline, StraightSweep, Sweep,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;
@@ -65,6 +63,6 @@ pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
-    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, SweepSpline, Terrain,
-    TerrainData, Warp, tape,
+    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData, NurbsError,
+    SweepSpline, Terrain, TerrainData, Warp, tape,
 };

@@ -7,8 +7,8 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, Object, SweepSpline, Terrain, Texture,
-    Warp,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain,
+    Texture, Warp,
 };
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
@@ -128,6 +128,10 @@ pub enum Shape {
     Sor(Arc<[[f64; 2]]>),
     /// A spline through points, a radius and a height each, turned about the y axis.
     Lathe(LatheSpline, Arc<[[f64; 2]]>),
+    /// A Bezier patch: a surface over the unit square.
+    Patch(Arc<Patch>),
+    /// A surface of non-uniform rational B-splines.
+    Nurbs(Arc<NurbsData>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.
@@ -221,6 +225,17 @@ pub struct Deform {
     pub solid: Object,
     /// What is done to it.
     pub warps: Vec<Warp>,
+}
+
+/// The control net of a Bezier patch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// How many points a row has, and how many rows there are.
+    pub size: [usize; 2],
+    /// The points row by row, and their weights: `[x, y, z, w]`. The parameter u runs along a row.
+    pub points: Vec<[f64; 4]>,
+    /// Texture coordinates at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
+    pub uv: [[f64; 2]; 4],
 }
 
 /// An outline in the xz plane, swept from one height to another; closed by flat caps unless the

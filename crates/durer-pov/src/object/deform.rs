@@ -222,6 +222,8 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
+        Shape::Patch(_) => "a patch",
+        Shape::Nurbs(_) => "a nurbs surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",

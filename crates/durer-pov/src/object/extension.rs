@@ -42,6 +42,9 @@ pub(crate) enum Word {
     Ifs,
     Terrain,
     Sweep,
+    Bilinear,
+    Patch,
+    Nurbs,
 }
 
 impl Word {
@@ -67,6 +70,9 @@ impl Word {
             "ifs" => Self::Ifs,
             "terrain" => Self::Terrain,
             "sweep" => Self::Sweep,
+            "bilinear" => Self::Bilinear,
+            "patch" => Self::Patch,
+            "nurbs" => Self::Nurbs,
             _ => return None,
         })
     }
@@ -131,6 +137,9 @@ impl Parser<'_> {
             Word::Ifs => return self.ifs(place),
             Word::Terrain => return self.terrain(place),
             Word::Sweep => return self.sweep(place),
+            Word::Bilinear => return self.bilinear(place),
+            Word::Patch => return self.spline_patch(place),
+            Word::Nurbs => return self.nurbs(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

@@ -7,6 +7,7 @@ mod ifs;
 mod julia;
 mod mesh;
 mod modifiers;
+mod patch;
 pub(crate) mod queries;
 mod shapes;
 mod sweep;
@@ -104,6 +105,8 @@ pub(crate) enum Shape {
     Sor(Rc<[[f64; 2]]>),
     /// Radii and heights.
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
+    Patch(Rc<durer_scene::Patch>),
+    Nurbs(Rc<durer_scene::NurbsData>),
     Ovus {
         bottom: f64,
         top: f64,
@@ -278,6 +281,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | SphereSweep
             | Sor
             | Lathe
+            | BicubicPatch
             | Ovus
             | Cubic
             | Quartic

@@ -21,6 +21,7 @@ from . import _native
 from ._camera import Camera
 from ._formula import Expression, Formula, formula, where
 from ._objects import (
+    BezierPatch,
     Blob,
     Box,
     Clipped,
@@ -48,6 +49,7 @@ from ._objects import (
     Merge,
     Menger,
     Mesh,
+    Nurbs,
     Object,
     Ovus,
     ParabolicCylinder,
@@ -98,6 +100,7 @@ __version__: str = _native.__version__
 __all__ = [
     "AllHits",
     "area",
+    "BezierPatch",
     "Blob",
     "bound_image",
     "Box",
@@ -140,6 +143,7 @@ __all__ = [
     "Menger",
     "Mesh",
     "normal_image",
+    "Nurbs",
     "Object",
     "object_image",
     "overlaps",

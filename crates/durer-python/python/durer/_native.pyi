@@ -21,6 +21,7 @@ __all__ = [
     "all",
     "any",
     "axis_box",
+    "bezier_patch",
     "blob",
     "clipped",
     "closest",
@@ -44,6 +45,7 @@ __all__ = [
     "load",
     "mesh",
     "named_quadric",
+    "nurbs",
     "ovus",
     "parallelogram",
     "placed",
@@ -209,6 +211,14 @@ def sweep(
 def sphere_sweep(spheres: Sequence[_Numbers], spline: str) -> Object: ...
 def surface_of_revolution(points: Sequence[_Numbers]) -> Object: ...
 def lathe(points: Sequence[_Numbers], spline: str) -> Object: ...
+def bezier_patch(points: Sequence[_Numbers], size: Sequence[int], uv: Sequence[_Numbers]) -> Object: ...
+def nurbs(
+    points: Sequence[_Numbers],
+    size: Sequence[int],
+    degree: Sequence[int],
+    knots: Sequence[_Numbers],
+    periodic: Sequence[bool],
+) -> Object: ...
 def ovus(bottom: float, top: float) -> Object: ...
 def lemon(
     base: _Numbers, base_radius: float, apex: _Numbers, apex_radius: float, inner_radius: float

@@ -533,6 +533,60 @@ class Lathe(Object):
         self._set(_native.lathe(*arguments), arguments)
 
 
+def _net(points: npt.ArrayLike) -> tuple[tuple[tuple[float, ...], ...], tuple[int, int]]:
+    """A net of points (rows, columns, 3), or 4 with weights, as a list with weights; and its columns and rows."""
+    net = real_array(points, "points")
+    if net.ndim != 3 or net.shape[2] not in (3, 4):
+        raise ValueError(f"points: shape (rows, columns, 3) or (rows, columns, 4) is needed, got {net.shape}")
+    rows, columns = net.shape[:2]
+    if net.shape[2] == 3:
+        net = np.concatenate([net, np.ones((rows, columns, 1))], axis=2)
+    return tuple(tuple(point) for point in net.reshape(-1, 4).tolist()), (columns, rows)
+
+
+@final
+class BezierPatch(Object):
+    """The Bezier patch of a net of control points (rows, columns, 3), 2 to 16 of each; u runs along a row, v from row to row.
+
+    With four numbers each, (rows, columns, 4), the last is the point's weight. `uv` has the texture coordinates at
+    (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1). An open surface.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, points: npt.ArrayLike, uv: npt.ArrayLike = ((0, 0), (1, 0), (1, 1), (0, 1))) -> None:
+        net, size = _net(points)
+        corners = _rows(uv, 2, "uv")
+        if len(corners) != 4:
+            raise ValueError(f"uv: 4 rows are needed, got {len(corners)}")
+        arguments = (net, size, corners)
+        self._set(_native.bezier_patch(*arguments), arguments)
+
+
+@final
+class Nurbs(Object):
+    """A surface of non-uniform rational B-splines: a net of points (rows, columns, 3), or 4 with weights, and degrees 1 to 9.
+
+    `knots` are two lists, along u (the columns) and along v; without them they are uniform, with the surface's ends at
+    the outer points. What is periodic has one knot more than points, and its points go round. An open surface.
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        degree: tuple[int, int],
+        knots: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        periodic: tuple[bool, bool] = (False, False),
+    ) -> None:
+        net, size = _net(points)
+        lists = ((), ()) if knots is None else knots
+        u, v = (tuple(real_array(values, "knots").ravel().tolist()) for values in lists)
+        arguments = (net, size, (int(degree[0]), int(degree[1])), (u, v), (bool(periodic[0]), bool(periodic[1])))
+        self._set(_native.nurbs(*arguments), arguments)
+
+
 @final
 class Ovus(Object):
     """An egg about the y axis: a sphere about the origin and one about the point `bottom` above it, with these radii."""

@@ -4,10 +4,10 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Parallelogram, Plane, Polygon,
-    PolygonError, Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector,
-    SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
+    CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
+    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
+    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -127,6 +127,14 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         Shape::Lathe(spline, points) => {
             add_closed(&mut target, Lathe::new(*spline, points).map_err(shape_error)?, map);
         }
+        Shape::Patch(it) => match BezierPatch::rational(it.size, &it.points) {
+            Err(nothing @ PatchError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?.with_uv(it.uv), map),
+        },
+        Shape::Nurbs(data) => match Nurbs::new((**data).clone()) {
+            Err(nothing @ NurbsError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?, map),
+        },
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
         }
@@ -537,6 +545,8 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
+        Shape::Patch(_) => "a patch",
+        Shape::Nurbs(_) => "a nurbs surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

@@ -1,0 +1,260 @@
+//! Cells: parts of a patch that are so flat that a ray which is not nearly tangent meets them at
+//! most once, and finds that crossing by Newton's method.
+//!
+//! W. Martin, E. Cohen, R. Fish, P. Shirley, "Practical ray tracing of trimmed NURBS surfaces",
+//! *Journal of Graphics Tools* 5 (2000) 27-52. What they test by the angle of normals is here a
+//! bound on `I - Y F'` for a ray along the normal: second derivatives, divided by slopes.
+
+use super::net::{Homogeneous, Net, steepest};
+use durer_math::{Aabb, Isa, Point3, U, Vec3};
+
+/// How far beyond its borders a cell's bounds hold, in widths of the cell.
+pub(super) const MARGIN: f64 = 1.0 / 16.0;
+/// How far beyond its borders a cell is evaluated, in widths of the cell.
+pub(super) const EDGE: f64 = durer_math::scale::pow2(-8);
+/// A cell is flat if slopes change by less than this part of themselves, seen along the normal.
+const FLAT: f64 = 0.25;
+/// No cell is halved more often than this along one parameter.
+const FINEST: u32 = 4;
+/// The most points of a row or a column.
+pub(super) const MOST: usize = 16;
+
+/// A part of a patch.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    /// The patch.
+    pub(super) face: u32,
+    /// The least parameters, in the patch.
+    pub(super) from: [f64; 2],
+    /// How far the parameters go on from there.
+    pub(super) width: [f64; 2],
+    /// The point from which the net counts, in units.
+    pub(super) base: [f64; 3],
+    pub(super) size: [usize; 2],
+    pub(super) net: Box<[Homogeneous<f64>]>,
+    /// The point in the middle and its slopes along the parameters.
+    pub(super) middle: [Homogeneous<f64>; 3],
+    /// Bounds on the slopes, also in the margin.
+    pub(super) first: [Homogeneous<f64>; 2],
+    /// Bounds on the second derivatives, also in the margin: along u, mixed, along v.
+    pub(super) second: [Homogeneous<f64>; 3],
+    /// Bounds on the error of a point of the net, and of an evaluation, slopes included; as a part
+    /// of the largest local coordinate it is the same for the weight.
+    pub(super) e_net: f64,
+    pub(super) e_point: f64,
+    pub(super) e_slope: f64,
+    /// The largest weight, also in the margin, and the least one in the cell.
+    pub(super) weights: [f64; 2],
+    /// The largest local coordinate.
+    pub(super) reach: f64,
+}
+
+/// How many roundings an evaluation makes of the sum of `|B| |P|`.
+///
+/// A cubic's Bernstein polynomials are off by five: `1 - t`, three products, the factor. Others grow
+/// by three with each degree. Each sum of `n` products rounds `n` times.
+pub(super) fn sums(size: [usize; 2]) -> f64 {
+    let along = |n: usize| if n == 4 { 9.0 } else { 4.0 * n as f64 };
+    along(size[0]) + along(size[1])
+}
+
+pub(super) fn power(x: f64, n: usize) -> f64 {
+    (0..n).fold(1.0, |p, _| p * x)
+}
+
+/// The Bernstein polynomials of `n` points at `t`, and their derivatives.
+#[inline(always)]
+pub(super) fn basis(n: usize, t: f64) -> ([f64; MOST], [f64; MOST]) {
+    let (mut b, mut d) = ([0.0; MOST], [0.0; MOST]);
+    let s = 1.0 - t;
+    if n == 4 {
+        let (ss, st, tt) = (s * s, s * t, t * t);
+        (b[0], b[1], b[2], b[3]) = (ss * s, 3.0 * ss * t, 3.0 * s * tt, tt * t);
+        (d[0], d[1], d[2], d[3]) = (-3.0 * ss, 3.0 * (ss - 2.0 * st), 3.0 * (2.0 * st - tt), 3.0 * tt);
+        return (b, d);
+    }
+    b[0] = 1.0;
+    for k in 1..n {
+        if k + 1 == n {
+            let factor = k as f64;
+            for i in 0..n {
+                let before = if i > 0 { b[i - 1] } else { 0.0 };
+                let here = if i < k { b[i] } else { 0.0 };
+                d[i] = factor * (before - here);
+            }
+        }
+        for i in (0..=k).rev() {
+            let before = if i > 0 { b[i - 1] } else { 0.0 };
+            b[i] = s.mul_add(b[i], t * before);
+        }
+    }
+    (b, d)
+}
+
+/// A point of a net and its slopes.
+#[inline(always)]
+fn combine<const NU: usize>(
+    net: &[Homogeneous<f64>],
+    nu: usize,
+    (bu, du): &([f64; MOST], [f64; MOST]),
+    (bv, dv): &([f64; MOST], [f64; MOST]),
+) -> [Homogeneous<f64>; 3] {
+    let nu = if NU > 0 { NU } else { nu };
+    let mut out = [[0.0_f64; 4]; 3];
+    for (j, row) in net.chunks_exact(nu).enumerate() {
+        let (mut p, mut pu) = ([0.0_f64; 4], [0.0_f64; 4]);
+        for i in 0..nu {
+            for c in 0..4 {
+                p[c] = row[i][c].mul_add(bu[i], p[c]);
+                pu[c] = row[i][c].mul_add(du[i], pu[c]);
+            }
+        }
+        for c in 0..4 {
+            out[0][c] = p[c].mul_add(bv[j], out[0][c]);
+            out[1][c] = pu[c].mul_add(bv[j], out[1][c]);
+            out[2][c] = p[c].mul_add(dv[j], out[2][c]);
+        }
+    }
+    out
+}
+
+/// A point of a net and its slopes; the point is off by [`sums`] roundings at most.
+#[inline(always)]
+pub(super) fn point_of(net: &[Homogeneous<f64>], size: [usize; 2], x: [f64; 2]) -> [Homogeneous<f64>; 3] {
+    let (u, v) = (basis(size[0], x[0]), basis(size[1], x[1]));
+    if size[0] == 4 { combine::<4>(net, 4, &u, &v) } else { combine::<0>(net, size[0], &u, &v) }
+}
+
+impl Cell {
+    /// The part of a patch in a box of parameters.
+    #[inline(always)]
+    fn new(patch: &Net, rational: bool, face: u32, from: [f64; 2], width: [f64; 2]) -> Self {
+        let size = patch.size;
+        let to = [from[0] + width[0], from[1] + width[1]];
+        let own = patch.part(from, to);
+        let beyond = [0, 1].map(|k| MARGIN * width[k]);
+        let wide =
+            patch.part([from[0] - beyond[0], from[1] - beyond[1]], [to[0] + beyond[0], to[1] + beyond[1]]);
+        let plain = own.relative([0.0; 3]);
+        let at = point_of(&plain, size, [0.5, 0.5])[0];
+        let base = [0, 1, 2].map(|k| at[k] / at[3]);
+        let mut net = own.relative(base);
+        let far = wide.relative(base);
+        let most =
+            |net: &[Homogeneous<f64>]| net.iter().flat_map(|p| &p[..3]).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let reach = most(&net);
+        let wide_reach = reach.max(most(&far));
+        let most_weight = far.iter().fold(0.0, |m: f64, p| m.max(p[3].abs()));
+        let least_weight = net.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
+        let weights = [most_weight, least_weight * (1.0 - 4.0 * U)];
+        if !rational {
+            net.iter_mut().for_each(|p| p[3] = 1.0);
+        }
+        let mut middle = point_of(&net, size, [0.5, 0.5]);
+        if !rational {
+            (middle[0][3], middle[1][3], middle[2][3]) = (1.0, 0.0, 0.0);
+        }
+        // Derivatives by the cell's own parameters; the net beyond is wider by its margins.
+        let stretch = 1.0 / (1.0 + 2.0 * MARGIN);
+        let degrees = [(size[0] - 1) as f64, (size[1] - 1) as f64];
+        let rounding = 16.0 * U * wide_reach.max(if rational { weights[0] } else { 0.0 });
+        let bound = |along: [usize; 2]| {
+            let mut most = steepest(&far, size, along);
+            let mut scale = 1.0;
+            for k in 0..2 {
+                for n in 0..along[k] {
+                    scale *= stretch * (degrees[k] - n as f64).max(0.0);
+                }
+            }
+            let (factor, slack) = (power(stretch, along[0] + along[1]), scale * 4.0 * rounding);
+            for (c, m) in most.iter_mut().enumerate() {
+                *m = if c == 3 && !rational { 0.0 } else { (*m * factor + slack) * (1.0 + 64.0 * U) };
+            }
+            most
+        };
+        // The sum of the |Bernstein polynomials| as far as the cell is evaluated.
+        let spread = power(1.0 + 2.0 * EDGE, size[0] + size[1] - 2);
+        let e_point = sums(size) * U * spread * reach;
+        Self {
+            face,
+            from,
+            width,
+            base,
+            size,
+            first: [bound([1, 0]), bound([0, 1])],
+            second: [bound([2, 0]), bound([1, 1]), bound([0, 2])],
+            middle,
+            e_net: (U * reach).mul_add(1.0 + 8.0 * U, durer_math::scale::pow2(-90)) * spread,
+            e_point,
+            e_slope: 2.0 * degrees[0].max(degrees[1]) * e_point,
+            weights,
+            reach,
+            net: net.into(),
+        }
+    }
+
+    /// The point and its slopes at `x`, in the cell's parameters from 0 to 1.
+    #[inline(always)]
+    pub(super) fn at(&self, rational: bool, x: [f64; 2]) -> [Homogeneous<f64>; 3] {
+        let mut out = point_of(&self.net, self.size, x);
+        if !rational {
+            (out[0][3], out[1][3], out[2][3]) = (1.0, 0.0, 0.0);
+        }
+        out
+    }
+
+    /// A box that holds the cell, in units: the convex hull of its control points does.
+    pub(super) fn bounds(&self) -> Aabb {
+        let place = |p: &Homogeneous<f64>| {
+            Point3::new(p[0] / p[3] + self.base[0], p[1] / p[3] + self.base[1], p[2] / p[3] + self.base[2])
+        };
+        let room = 8.0 * U * (1.0 + self.reach / self.weights[1]);
+        Aabb::from_points(self.net.iter().map(place)).expanded(Vec3::new(room, room, room))
+    }
+
+    /// By how much slopes change in the cell, as a part of themselves, along each parameter.
+    fn bend(&self) -> [f64; 2] {
+        let vector = |p: &Homogeneous<f64>| Vec3::new(p[0], p[1], p[2]);
+        let (a, b) = (vector(&self.middle[1]), vector(&self.middle[2]));
+        let n = a.cross(b);
+        let [uu, uv, vv] = self.second.map(|h| vector(&h).length());
+        // The rows of Y for a ray along the normal.
+        let (yu, yv) = (b.length() / n.length(), a.length() / n.length());
+        let along = |h: f64, mixed: f64| 0.5 * yu.max(yv) * (h + mixed);
+        let bend = [along(uu, uv), along(vv, uv)];
+        if bend.iter().all(|b| b.is_finite()) { bend } else { [uu + uv, vv + uv].map(|h| h * 1e30) }
+    }
+}
+
+/// The cells of a patch.
+pub(super) fn cells(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || cut_up(patch, rational, face, out),
+    );
+}
+
+#[inline(always)]
+fn cut_up(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
+    let mut open = vec![([0.0; 2], [0_u32; 2])];
+    while let Some((from, halved)) = open.pop() {
+        let width = halved.map(|n| durer_math::scale::pow2(-(n as i32)));
+        let cell = Cell::new(patch, rational, face, from, width);
+        let [u, v] = cell.bend();
+        let may = [0, 1].map(|k| halved[k] < FINEST);
+        if u + v <= FLAT || may == [false; 2] || (u + v).is_nan() {
+            out.push(cell);
+            continue;
+        }
+        let k = if may == [true; 2] { usize::from(v > u) } else { usize::from(may[1]) };
+        // A parameter along which nothing changes is not worth halving.
+        if [u, v][k] <= FLAT / 8.0 {
+            out.push(cell);
+            continue;
+        }
+        let (mut halved, mut second) = (halved, from);
+        halved[k] += 1;
+        second[k] += 0.5 * width[k];
+        open.extend([(second, halved), (from, halved)]);
+    }
+}

@@ -1,0 +1,296 @@
+//! A ray and a cell: the ray is sheared onto an axis, so that a crossing is a zero of two functions
+//! of two unknowns (S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", *Journal of
+//! Computer Graphics Techniques* 2:1 (2013) 65-82).
+//!
+//! ```text
+//!   F = (X - k_x Z,  Y - k_y Z),   (X, Y, Z) = w (S(u, v) - o),   k_x = d_x / d_z,  |d_z| the largest
+//! ```
+//!
+//! `X`, `Y`, `Z` are polynomials even where `S` is rational. What the ray is not exactly known by,
+//! and every rounding, is charged to `F` (see [`View::new`]), so that a cell is left out only if no
+//! ray within these errors meets it, and neighbours need not agree on any rounding.
+
+use super::cell::{Cell, EDGE, MARGIN};
+use super::net::Homogeneous;
+use super::subdivide;
+use crate::CentredRay;
+use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
+use durer_math::U;
+use durer_math::eft::two_diff;
+
+/// Where a cell's own limits hold.
+const MARGINS: [[f64; 2]; 2] = [[-MARGIN, 1.0 + MARGIN]; 2];
+
+/// A ray whose largest component of direction is the third.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    axes: [usize; 3],
+    o: [f64; 3],
+    o_err: [f64; 3],
+    d_z: f64,
+    d_z_err: f64,
+    slope: [f64; 2],
+    slope_err: [f64; 2],
+}
+
+impl Line {
+    #[inline(always)]
+    pub(super) fn new(at: &CentredRay<'_>) -> Self {
+        let d = at.d.abs();
+        // An even permutation: it keeps the sign of determinants.
+        let axes = if d.x > d.y && d.x > d.z {
+            [1, 2, 0]
+        } else if d.y > d.z {
+            [2, 0, 1]
+        } else {
+            [0, 1, 2]
+        };
+        let [o, o_err, d, d_err] = [at.o, at.o_err, at.d, at.d_err].map(|v| axes.map(|axis| v[axis]));
+        let slope = [d[0] / d[2], d[1] / d[2]];
+        // |d_z| is 1 at least; what is known worse than that is not known at all.
+        let known = (d[2].abs() - d_err[2]).max(0.0);
+        let mut slope_err = [0.0; 2];
+        for i in 0..2 {
+            let size = slope[i].abs();
+            slope_err[i] = (size.mul_add(d_err[2], d_err[i]) / known + U * size) * ROUNDED;
+        }
+        Self { axes, o, o_err, d_z: d[2], d_z_err: d_err[2], slope, slope_err }
+    }
+}
+
+/// A line as a cell sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View<'a> {
+    pub(super) cell: &'a Cell,
+    pub(super) rational: bool,
+    line: &'a Line,
+    /// The origin, counted from the cell's base, and bounds on its error.
+    o: [f64; 3],
+    o_err: [f64; 3],
+    /// In the cell's parameters from 0 to 1.
+    pub(super) limits: Limits,
+    /// The part of the errors that is not of evaluation: bounds on the errors of control points.
+    pub(super) e_control: [f64; 2],
+}
+
+/// A crossing of a line and a cell, or what may be one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) face: u32,
+    /// The parameters in the patch, and how far off they may be.
+    pub(super) uv: [f64; 2],
+    pub(super) radius: [f64; 2],
+    /// No other crossing is within this distance; 0 if nothing is proven.
+    pub(super) alone: [f64; 2],
+    pub(super) s: f64,
+    pub(super) s_err: f64,
+    /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
+    pub(super) sign: i8,
+    /// Where nothing is proven: that sign at some points round about, 0 if they differ.
+    pub(super) turn: i8,
+}
+
+impl<'a> View<'a> {
+    /// The bounds of errors: with `X = x - o_x W`, `Z = z - o_z W` and `f = X - k Z`,
+    ///
+    /// * control points are off by `e_net`, the origin by `o_err` and the rounding of `o - base`;
+    /// * `k` is off by `slope_err`, which counts times `|Z|`;
+    /// * `X`, `Z` and `f` round once each, to `U` of their size, and an evaluation is off by
+    ///   `e_point`.
+    #[inline(always)]
+    pub(super) fn new(line: &'a Line, cell: &'a Cell, rational: bool) -> Self {
+        let (mut o, mut o_err) = ([0.0; 3], [0.0; 3]);
+        for k in 0..3 {
+            let (near, lost) = two_diff(line.o[k], cell.base[line.axes[k]]);
+            (o[k], o_err[k]) = (near, (line.o_err[k] + lost.abs()) * ROUNDED);
+        }
+        let [heaviest, _] = cell.weights;
+        // A weight is off by this part of what a coordinate is.
+        let weight_err = if rational { heaviest / cell.reach.max(f64::MIN_POSITIVE) } else { 0.0 };
+        let mut view = Self {
+            cell,
+            rational,
+            line,
+            o,
+            o_err,
+            limits: Limits { e: [0.0; 2], e_j: [0.0; 2], h: [[0.0; 3]; 2] },
+            e_control: [0.0; 2],
+        };
+        let size = #[inline(always)]
+        |k: usize| o[k].abs().mul_add(heaviest, cell.reach);
+        let times = #[inline(always)]
+        |k: usize| 1.0 + o[k].abs() * weight_err;
+        let z = size(2);
+        for i in 0..2 {
+            let slope = line.slope[i].abs();
+            let both = slope.mul_add(times(2), times(i));
+            let given = heaviest * slope.mul_add(o_err[2], o_err[i]) + line.slope_err[i] * z;
+            let rounding = U * (2.0 * size(i) + 2.0 * slope * z);
+            view.e_control[i] = (cell.e_net.mul_add(both, given) + rounding) * ROUNDED;
+            view.limits.e[i] = cell.e_point.mul_add(both, view.e_control[i]) * ROUNDED;
+            let steep = #[inline(always)]
+            |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
+            let first = #[inline(always)]
+            |d: &Homogeneous<f64>| {
+                2.0 * U * slope.mul_add(steep(d, 2), steep(d, i))
+                    + line.slope_err[i] * steep(d, 2)
+                    + d[3] * slope.mul_add(o_err[2], o_err[i])
+            };
+            let slopes = first(&cell.first[0]).max(first(&cell.first[1]));
+            view.limits.e_j[i] = (2.0 * cell.e_slope).mul_add(both, slopes) * ROUNDED;
+            for k in 0..3 {
+                let h = &cell.second[k];
+                view.limits.h[i][k] = slope.mul_add(steep(h, 2), steep(h, i)) * ROUNDED;
+            }
+        }
+        view
+    }
+
+    /// A homogeneous point (or a derivative of it), sheared; and its third coordinate.
+    #[inline(always)]
+    pub(super) fn sheared(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
+        let axes = &self.line.axes;
+        let of = #[inline(always)]
+        |k: usize| (-self.o[k]).mul_add(p[3], p[axes[k]]);
+        let (x, y, z) = (of(0), of(1), of(2));
+        let [kx, ky] = self.line.slope;
+        ([(-kx).mul_add(z, x), (-ky).mul_add(z, y)], z)
+    }
+
+    #[inline(always)]
+    fn local(&self, [p, pu, pv]: &[Homogeneous<f64>; 3]) -> Local {
+        let (f, a, b) = (self.sheared(p).0, self.sheared(pu).0, self.sheared(pv).0);
+        Local { f, j: [[a[0], b[0]], [a[1], b[1]]] }
+    }
+
+    /// The crossings of the line and the cell.
+    #[inline(always)]
+    pub(super) fn meet(&self, out: &mut Vec<Found>) {
+        let middle = self.local(&self.cell.middle);
+        match self.limits.content(&middle, 0.5, 0.5 + MARGIN) {
+            Content::Nothing => {}
+            Content::AtMostOne([du, dv]) => match self.zero([0.5 + du, 0.5 + dv], &self.limits, &MARGINS) {
+                Some(zero) => {
+                    if touches(&zero, [0.0; 2], [1.0; 2]) {
+                        out.push(self.found(&zero));
+                    }
+                }
+                None => subdivide::meet(self, out),
+            },
+            Content::Unknown => subdivide::meet(self, out),
+        }
+    }
+
+    /// The zero near `x` in the cell, proven by limits that hold in `region`.
+    #[inline(always)]
+    pub(super) fn zero(&self, x: [f64; 2], limits: &Limits, region: &[[f64; 2]; 2]) -> Option<Zero> {
+        // Errors are bounded up to the cell's edge.
+        let within = region.map(|[from, to]| [from.max(-EDGE), to.min(1.0 + EDGE)]);
+        limits.zero(
+            x,
+            (region, &within),
+            #[inline(always)]
+            |x| self.local(&self.cell.at(self.rational, x)),
+        )
+    }
+
+    /// A parameter of the cell as one of the patch.
+    #[inline(always)]
+    fn in_patch(&self, k: usize, x: f64) -> f64 {
+        x.mul_add(self.cell.width[k], self.cell.from[k])
+    }
+
+    /// The line's parameter at a point of the cell, where its third coordinate is off by `z_err`.
+    #[inline(always)]
+    fn along(&self, z: f64, z_err: f64) -> (f64, f64) {
+        let s = z / self.line.d_z;
+        let known = (self.line.d_z.abs() - self.line.d_z_err).max(0.0);
+        let err = (s.abs().mul_add(self.line.d_z_err, z_err) / known + U * s.abs()) * ROUNDED;
+        (s, err)
+    }
+
+    /// A proven zero as a crossing.
+    #[inline(always)]
+    pub(super) fn found(&self, zero: &Zero) -> Found {
+        let (cell, z_axis) = (self.cell, self.line.axes[2]);
+        let [p, pu, pv] = cell.at(self.rational, zero.x);
+        let w = p[3];
+        let z = (-self.o[2]).mul_add(w, p[z_axis]) / w;
+        // Of S, by the quotient rule.
+        let slope = |d: &Homogeneous<f64>| ((p[z_axis] / w).abs() * d[3].abs() + d[z_axis].abs()) / w;
+        let bend = |h: &Homogeneous<f64>| (cell.reach / w) * h[3] + h[z_axis];
+        let [ru, rv] = zero.radius;
+        let rest = bend(&cell.second[0]) * ru * ru
+            + 2.0 * bend(&cell.second[1]) * ru * rv
+            + bend(&cell.second[2]) * rv * rv;
+        let weight_err = if self.rational {
+            self.o[2].abs() * cell.weights[0] / cell.reach.max(f64::MIN_POSITIVE)
+        } else {
+            0.0
+        };
+        let z_err = slope(&pu) * ru
+            + slope(&pv) * rv
+            + 2.0 * rest / w
+            + (cell.e_net + cell.e_point + cell.e_slope * (ru + rv)) * (1.0 + weight_err) / w
+            + self.o_err[2]
+            + 2.0 * U * (z.abs() + self.o[2].abs() + (p[z_axis] / w).abs());
+        let (s, s_err) = self.along(z, z_err * ROUNDED);
+        let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
+        Found {
+            face: cell.face,
+            uv: [self.in_patch(0, zero.x[0]), self.in_patch(1, zero.x[1])],
+            radius: [0, 1].map(|k| (zero.radius[k] * cell.width[k] + U) * ROUNDED),
+            alone: [0, 1].map(|k| zero.alone * cell.width[k]),
+            s,
+            s_err,
+            sign,
+            turn: sign,
+        }
+    }
+
+    /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.
+    #[inline(always)]
+    fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
+        let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at| {
+            let x = [0, 1].map(|k| f64::mul_add(at[k], width[k], from[k]));
+            let [a, b] = self.local(&self.cell.at(self.rational, x)).j;
+            let det = a[0].mul_add(b[1], -(a[1] * b[0])) * self.line.d_z;
+            i8::from(det > 0.0) - i8::from(det < 0.0)
+        });
+        if signs.iter().all(|s| *s == signs[0]) { signs[0] } else { 0 }
+    }
+
+    /// A box in the cell in which crossings cannot be told from misses.
+    #[inline(always)]
+    pub(super) fn unresolved(&self, from: [f64; 2], width: [f64; 2]) -> Found {
+        let (cell, z_axis) = (self.cell, self.line.axes[2]);
+        let half = width.map(|w| 0.5 * w);
+        let x = [from[0] + half[0], from[1] + half[1]];
+        let [p, ..] = cell.at(self.rational, x);
+        let z = (-self.o[2]).mul_add(p[3], p[z_axis]) / p[3];
+        let slope =
+            |d: &Homogeneous<f64>| ((cell.reach / cell.weights[1]) * d[3] + d[z_axis]) / cell.weights[1];
+        let z_err = slope(&cell.first[0]) * half[0]
+            + slope(&cell.first[1]) * half[1]
+            + 4.0 * (cell.e_net + cell.e_point) / cell.weights[1] * (1.0 + self.o[2].abs() / cell.weights[1])
+            + self.o_err[2]
+            + 2.0 * U * (z.abs() + self.o[2].abs() + cell.reach);
+        let (s, s_err) = self.along(z, z_err * ROUNDED);
+        Found {
+            face: cell.face,
+            uv: [self.in_patch(0, x[0]), self.in_patch(1, x[1])],
+            radius: [0, 1].map(|k| half[k] * cell.width[k] + U),
+            alone: [0.0; 2],
+            s,
+            s_err,
+            sign: 0,
+            turn: self.turn(from, width),
+        }
+    }
+}
+
+/// Whether a zero may be in a closed box.
+#[inline(always)]
+pub(super) fn touches(zero: &Zero, from: [f64; 2], width: [f64; 2]) -> bool {
+    (0..2).all(|k| zero.x[k] + zero.radius[k] >= from[k] && zero.x[k] - zero.radius[k] <= from[k] + width[k])
+}

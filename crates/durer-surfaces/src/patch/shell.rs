@@ -1,0 +1,265 @@
+//! Patches as one surface: their cells in a tree, and all crossings of a ray, each once.
+
+use super::cell::{Cell, cells};
+use super::line::{Found, Line, View};
+use super::net::{Homogeneous, Net};
+use crate::blob::{Along, Inner, Tree};
+use crate::mesh::Sorted;
+use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
+use core::cell::Cell as Slot;
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Dd, Point3, U, Vec3};
+
+/// Cells farther than this from the ray's range, in units, are not looked at: far more than any
+/// bracket of a proven crossing is wide.
+const ROOM: f64 = 1.0 / 1024.0;
+
+/// A patch as it is resolved: its control points in units, and the patch's own rounding of them.
+#[derive(Clone, Debug)]
+pub(super) struct Face {
+    pub(super) size: [usize; 2],
+    pub(super) net: Box<[Homogeneous<f64>]>,
+}
+
+/// Patches in units about a common centre.
+#[derive(Clone, Debug)]
+pub(super) struct Shell {
+    pub(super) bounds: Aabb,
+    pub(super) centre: Point3,
+    pub(super) scale: i32,
+    /// The radius of a ball about the centre that holds everything.
+    pub(super) reach: f64,
+    pub(super) rational: bool,
+    pub(super) faces: Box<[Face]>,
+    /// In the order of the tree.
+    cells: Box<[Cell]>,
+    tree: Tree,
+}
+
+/// Lists of one ray, kept by the thread so that rays do not allocate.
+#[derive(Default)]
+struct Lists {
+    nodes: Vec<u32>,
+    found: Vec<Found>,
+}
+
+thread_local! {
+    static LISTS: Slot<Lists> = Slot::default();
+}
+
+impl Shell {
+    /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
+    /// are the same.
+    pub(super) fn new(nets: &[Net]) -> Option<Self> {
+        let points = || nets.iter().flat_map(|net| &net.points);
+        let place = |p: &Homogeneous<Dd>| {
+            let w = p[3].to_f64();
+            Point3::new(p[0].to_f64() / w, p[1].to_f64() / w, p[2].to_f64() / w)
+        };
+        let hull = Aabb::from_points(points().map(place));
+        let centre = hull.centre();
+        let reach = hull.reach_from(centre);
+        if reach == 0.0 {
+            return None;
+        }
+        let scale = exponent(reach) + 1;
+        let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3].to_f64()));
+        let rational = points().any(|p| p[3] != Dd::from(heaviest));
+        // Without weights all are 1.
+        let weight_scale = if rational { exponent(heaviest) + 1 } else { 0 };
+        let middle = [centre.x, centre.y, centre.z].map(Dd::from);
+        let (mut all, mut faces) = (Vec::new(), Vec::new());
+        for (face, net) in nets.iter().enumerate() {
+            let about = |p: &Homogeneous<Dd>| {
+                let of = |k: usize| (p[k] - middle[k] * p[3]).scale2(-scale - weight_scale);
+                [of(0), of(1), of(2), p[3].scale2(-weight_scale)]
+            };
+            let net = Net { size: net.size, points: net.points.iter().map(about).collect() };
+            faces.push(Face { size: net.size, net: net.relative([0.0; 3]).into() });
+            cells(&net, rational, face as u32, &mut all);
+        }
+        let boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
+        let (tree, order) = Tree::new(&boxes);
+        let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
+        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
+        let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
+        let units = units.expanded(room);
+        let bounds = Aabb::new(back(units.min), back(units.max));
+        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude());
+        let bounds = bounds.expanded(room).intersection(hull.expanded(room));
+        let cells = order.iter().map(|&i| all[i as usize].clone()).collect();
+        Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree })
+    }
+
+    /// Passes all crossings to `sink`, ascending.
+    #[inline(always)]
+    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let at = ray.recentre(self.centre, self.scale).sharp(1.0);
+        let mut lists = LISTS.take();
+        self.meet(&at, &mut lists, sink.limit());
+        if !lists.found.is_empty() {
+            let found = distinct(&mut lists.found);
+            let mut roots = Sorted::new();
+            for crossing in found {
+                if let Some(root) = root(&at, crossing) {
+                    roots.push(root);
+                }
+            }
+            roots.pour(sink);
+        }
+        LISTS.set(lists);
+    }
+
+    #[inline(always)]
+    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, limit: f64) {
+        let along = Along::new(at);
+        let ray = at.local();
+        let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
+        let (begin, end) = (begin - ROOM, end + ROOM);
+        let line = Line::new(at);
+        let Lists { nodes, found } = lists;
+        nodes.clear();
+        found.clear();
+        nodes.push(0);
+        while let Some(node) = nodes.pop() {
+            let Some((near, far)) = self.tree.entry(node, &along) else { continue };
+            if far < begin || near > end {
+                continue;
+            }
+            match self.tree.inner(node) {
+                Inner::Nodes(a, b) => {
+                    nodes.push(a);
+                    nodes.push(b);
+                }
+                Inner::Leaf(from, to) => {
+                    for cell in &self.cells[from..to] {
+                        View::new(&line, cell, self.rational).meet(found);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Whether the box of `a` lies where `b` is the only crossing.
+#[inline(always)]
+fn is_held(a: &Found, b: &Found) -> bool {
+    (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() + a.radius[k] < b.alone[k])
+}
+
+/// Whether two boxes have a point in common.
+#[inline(always)]
+fn overlap(a: &Found, b: &Found) -> bool {
+    (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() <= a.radius[k] + b.radius[k])
+}
+
+/// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
+/// the same place of the line, in the same direction.
+#[inline(always)]
+fn is_shared(a: &Found, b: &Found) -> bool {
+    let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
+    a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+}
+
+/// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
+/// each other and in which nothing is proven.
+#[inline(always)]
+fn distinct(found: &mut Vec<Found>) -> &[Found] {
+    if found.len() > 1 {
+        // Proven ones first.
+        found.sort_by(|a, b| b.sign.abs().cmp(&a.sign.abs()));
+        let mut kept = 0;
+        for i in 0..found.len() {
+            let new = found[i];
+            let same = |old: &Found| {
+                if old.face == new.face {
+                    is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
+                } else {
+                    is_shared(&new, old)
+                }
+            };
+            match found[..kept].iter().position(same) {
+                Some(k) if found[k].sign != 0 => {
+                    // Of two proofs the sharper one is kept.
+                    if new.sign != 0 && new.s_err < found[k].s_err {
+                        found[k] = new;
+                    }
+                }
+                Some(k) => found[k] = joined(&found[k], &new),
+                None => {
+                    found[kept] = new;
+                    kept += 1;
+                }
+            }
+        }
+        found.truncate(kept);
+        join_all(found);
+    }
+    found
+}
+
+/// Joins unproven boxes until none touches another.
+fn join_all(found: &mut Vec<Found>) {
+    let mut changed = true;
+    while changed {
+        changed = false;
+        let mut i = 0;
+        while i < found.len() {
+            let other = (i + 1..found.len()).find(|&j| {
+                let (a, b) = (&found[i], &found[j]);
+                a.sign == 0 && b.sign == 0 && a.face == b.face && overlap(a, b)
+            });
+            match other {
+                Some(j) => {
+                    found[i] = joined(&found[i], &found[j]);
+                    found.swap_remove(j);
+                    changed = true;
+                }
+                None => i += 1,
+            }
+        }
+    }
+}
+
+/// A box that holds two others.
+fn joined(a: &Found, b: &Found) -> Found {
+    let (mut out, wider) = (*a, 1.0 + 4.0 * U);
+    // Parameters of different patches do not mix.
+    for k in 0..if a.face == b.face { 2 } else { 0 } {
+        let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
+        let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
+        (out.uv[k], out.radius[k]) = (0.5 * (low + high), 0.5 * (high - low) * wider + U);
+    }
+    let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));
+    (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
+    out.turn = if a.turn == b.turn { a.turn } else { 0 };
+    out
+}
+
+/// A crossing in the caller's parameter; `None` if it is not in the ray's range.
+#[inline(always)]
+fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
+    let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
+    match at.admits(lo, hi) {
+        Some(false) => return None,
+        // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
+        // start is the start.
+        None if lo <= 0.0 && at.spawned().is_some_and(|(_, face, _)| face == found.face) => return None,
+        _ => {}
+    }
+    let (kind, sign) = match (found.sign, found.turn) {
+        (0, 0) => (RootKind::Grazing, 0),
+        (0, turn) => (RootKind::Cluster, turn),
+        (sign, _) => (RootKind::Simple, sign),
+    };
+    Some(Root {
+        t: at.t(found.s).max(lo).min(hi),
+        lo,
+        hi,
+        s: found.s,
+        tag: found.uv.map(|x| x.clamp(0.0, 1.0)),
+        face: found.face,
+        sign,
+        kind,
+    })
+}

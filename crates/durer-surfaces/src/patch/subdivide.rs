@@ -1,0 +1,245 @@
+//! A cell that a ray meets nearly at a tangent, or whose slopes vanish at a collapsed edge: halved
+//! until every part is empty, holds one proven crossing, or is as small as the errors.
+//!
+//! T. Nishita, T. W. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches",
+//! *SIGGRAPH* 1990, clip the hull of the control points of `F`; A. Efremov, V. Havran, H.-P. Seidel,
+//! "Robust and numerically efficient Bezier clipping", *Spring Conference on Computer Graphics* 2005,
+//! list how clipping loses and doubles roots. Here the hull only leaves parts out, with its rounding
+//! charged; what remains is halved or proven by Krawczyk's test, and a zero on the border of two
+//! parts is recognised later, because each has a proof that it is alone in a wider box.
+
+use super::cell::{MARGIN, basis, power, sums};
+use super::line::{Found, View, touches};
+use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED};
+use durer_math::{Isa, U};
+
+/// The most parts of a cell that one ray looks at; the rest stays unresolved. A tangent needs a few
+/// hundred.
+const MOST_STEPS: usize = 4096;
+/// Values of fewer errors than this all over a part cannot be told from zero.
+const NOISE: f64 = 8.0;
+/// The least width of a part, in parameters of its cell.
+const LEAST: f64 = durer_math::scale::pow2(-48);
+
+/// A part of a cell: the control values of `F`, which are off by `e` at most.
+struct Part {
+    f: Vec<[f64; 2]>,
+    e: [f64; 2],
+    from: [f64; 2],
+    width: [f64; 2],
+}
+
+/// The least and the greatest of a combination of both functions.
+#[inline(always)]
+fn range(f: &[[f64; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for [x, y] in f {
+        let value = a.mul_add(*x, b * y);
+        (low, high) = (low.min(value), high.max(value));
+    }
+    (low, high)
+}
+
+impl Part {
+    /// Whether a combination of the functions is not zero in the part.
+    #[inline(always)]
+    fn is_clear_of(&self, by: [f64; 2]) -> bool {
+        let (low, high) = range(&self.f, by);
+        let most = low.abs().max(high.abs());
+        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * U * self.most(by);
+        most > 0.0 && (low > e || high < -e)
+    }
+
+    /// The size that a combination's terms have at most.
+    #[inline(always)]
+    fn most(&self, by: [f64; 2]) -> f64 {
+        self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x).abs() + (by[1] * y).abs()))
+    }
+
+    /// The value and slopes in the middle and bounds on second derivatives, by the part's own
+    /// parameters from 0 to 1.
+    #[inline(always)]
+    fn local(&self, [nu, nv]: [usize; 2]) -> (Local, Limits) {
+        let ((bu, du), (bv, dv)) = (basis(nu, 0.5), basis(nv, 0.5));
+        let mut local = Local { f: [0.0; 2], j: [[0.0; 2]; 2] };
+        let (degree_u, degree_v) = ((nu - 1) as f64, (nv - 1) as f64);
+        let wide = power(1.0 + 2.0 * MARGIN, nu + nv - 2);
+        let mut limits = Limits { e: [0.0; 2], e_j: [0.0; 2], h: [[0.0; 3]; 2] };
+        for i in 0..2 {
+            let mut most = 0.0_f64;
+            let mut h = [0.0_f64; 3];
+            for (v, row) in self.f.chunks_exact(nu).enumerate() {
+                for u in 0..nu {
+                    let f = row[u][i];
+                    most = most.max(f.abs());
+                    local.f[i] += f * (bu[u] * bv[v]);
+                    local.j[i][0] += f * (du[u] * bv[v]);
+                    local.j[i][1] += f * (bu[u] * dv[v]);
+                    let at = |a: usize, b: usize| self.f[(v + b) * nu + u + a][i];
+                    if u + 2 < nu {
+                        h[0] = h[0].max((at(2, 0) - 2.0 * at(1, 0) + f).abs());
+                    }
+                    if u + 1 < nu && v + 1 < nv {
+                        h[1] = h[1].max((at(1, 1) - at(1, 0) - at(0, 1) + f).abs());
+                    }
+                    if v + 2 < nv {
+                        h[2] = h[2].max((at(0, 2) - 2.0 * at(0, 1) + f).abs());
+                    }
+                }
+            }
+            // Control values are off by `e`, second differences by four times that, and what they
+            // round.
+            let slack = 4.0 * self.e[i] + 8.0 * U * most;
+            let factors = [degree_u * (degree_u - 1.0), degree_u * degree_v, degree_v * (degree_v - 1.0)];
+            for k in 0..3 {
+                limits.h[i][k] = if factors[k] > 0.0 { factors[k] * (h[k] + slack) * wide } else { 0.0 };
+            }
+            limits.e[i] = sums([nu, nv]).mul_add(U * most, self.e[i]) * ROUNDED;
+            limits.e_j[i] = 2.0 * degree_u.max(degree_v) * limits.e[i];
+        }
+        (local, limits)
+    }
+
+    /// Both halves along a parameter.
+    #[inline(always)]
+    fn halves(&self, nu: usize, along: usize) -> [Self; 2] {
+        let nv = self.f.len() / nu;
+        let (n, step, lines, next) = if along == 0 { (nu, 1, nv, nu) } else { (nv, nu, nu, 1) };
+        let (mut low, mut high) = (self.f.clone(), self.f.clone());
+        for line in 0..lines {
+            let at = |k: usize| line * next + k * step;
+            // De Casteljau: `high` holds one level after the other.
+            for level in 1..n {
+                for k in 0..n - level {
+                    let (a, b) = (high[at(k)], high[at(k + 1)]);
+                    high[at(k)] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+                }
+                low[at(level)] = high[at(0)];
+            }
+        }
+        let mut e = self.e;
+        for (i, e) in e.iter_mut().enumerate() {
+            let most = self.f.iter().fold(0.0, |m: f64, f| m.max(f[i].abs()));
+            *e = (n as f64).mul_add(U * most, *e) * ROUNDED;
+        }
+        let mut width = self.width;
+        width[along] *= 0.5;
+        let mut from = self.from;
+        from[along] += width[along];
+        [Self { f: low, e, from: self.from, width }, Self { f: high, e, from, width }]
+    }
+}
+
+/// The combinations of both functions that change most slowly and fastest from the middle: the
+/// left singular vectors of the slopes.
+#[inline(always)]
+fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let dot = #[inline(always)]
+    |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
+    let (p, q, r) = (dot(j[0], j[0]), dot(j[0], j[1]), dot(j[1], j[1]));
+    // The direction of the larger eigenvalue of J J'.
+    let half = 0.5 * (p - r);
+    let root = half.mul_add(half, q * q).sqrt();
+    let [a, b] = if half >= 0.0 { [half + root, q] } else { [q, root - half] };
+    let length = a.mul_add(a, b * b).sqrt();
+    if length > 0.0 && length.is_finite() {
+        let [a, b] = [a / length, b / length];
+        [[-b, a], [a, b]]
+    } else {
+        [[0.0, 1.0], [1.0, 0.0]]
+    }
+}
+
+/// The crossings of a line and a cell, and the boxes of the cell in which none can be told from a
+/// miss.
+#[inline(never)]
+pub(super) fn meet(view: &View<'_>, out: &mut Vec<Found>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || meet_here(view, out),
+    );
+}
+
+#[inline(always)]
+fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
+    let cell = view.cell;
+    let [nu, nv] = cell.size;
+    let mut f = Vec::with_capacity(cell.net.len());
+    for p in &cell.net {
+        f.push(view.sheared(p).0);
+    }
+    let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
+    let mut steps = 0;
+    while let Some(part) = open.pop() {
+        if part.is_clear_of([1.0, 0.0]) || part.is_clear_of([0.0, 1.0]) {
+            continue;
+        }
+        let (local, limits) = part.local([nu, nv]);
+        let [slow, fast] = singular(&local.j);
+        if part.is_clear_of(slow) || part.is_clear_of(fast) {
+            continue;
+        }
+        let start = match limits.content(&local, 0.5, 0.5 + MARGIN) {
+            Content::Nothing => continue,
+            Content::AtMostOne(x) => Some(x),
+            Content::Unknown => None,
+        };
+        if let Some([x, y]) = start {
+            let at = [0.5 + x, 0.5 + y];
+            let [w, h] = part.width;
+            let x = [f64::mul_add(at[0], w, part.from[0]), f64::mul_add(at[1], h, part.from[1])];
+            // The limits of the part by the cell's parameters; they hold in the part's own margin.
+            let mut own = view.limits;
+            for i in 0..2 {
+                let [a, b] = part.width;
+                let by = [a * a, a * b, b * b];
+                for k in 0..3 {
+                    own.h[i][k] = own.h[i][k].min(limits.h[i][k] / by[k] * ROUNDED);
+                }
+            }
+            let region = [0, 1].map(|k| {
+                let beyond = MARGIN * part.width[k];
+                [part.from[k] - beyond, part.from[k] + part.width[k] + beyond]
+            });
+            if let Some(zero) = view.zero(x, &own, &region) {
+                if touches(&zero, part.from, part.width) {
+                    out.push(view.found(&zero));
+                }
+                continue;
+            }
+        }
+        steps += 1;
+        let small = part.width[0].max(part.width[1]) < LEAST;
+        let (low, high) = range(&part.f, slow);
+        let e = slow[0].abs() * part.e[0] + slow[1].abs() * part.e[1];
+        if small || steps > MOST_STEPS || low.abs().max(high.abs()) <= NOISE * e {
+            out.push(view.unresolved(part.from, part.width));
+            continue;
+        }
+        let along = usize::from(part.change(nu, 1) > part.change(nu, 0));
+        let along = if part.width[along] < LEAST { 1 - along } else { along };
+        let [low, high] = part.halves(nu, along);
+        open.push(high);
+        open.push(low);
+    }
+}
+
+impl Part {
+    /// By how much the functions change along a parameter.
+    #[inline(always)]
+    fn change(&self, nu: usize, along: usize) -> f64 {
+        let nv = self.f.len() / nu;
+        let mut most = 0.0_f64;
+        for v in 0..nv {
+            for u in 0..nu {
+                let (a, b) = if along == 0 { (u, 0) } else { (0, v) };
+                let first = if along == 0 { v * nu } else { u };
+                if a + b > 0 {
+                    let (p, q) = (self.f[v * nu + u], self.f[first]);
+                    most = most.max((p[0] - q[0]).abs()).max((p[1] - q[1]).abs());
+                }
+            }
+        }
+        most
+    }
+}

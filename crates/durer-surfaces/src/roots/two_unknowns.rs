@@ -1,0 +1,240 @@
+//! Zeros of two functions of two unknowns, with proof.
+//!
+//! ```text
+//!   F(x) = 0,  x in a box X about m      K(X) = m - Y F(m) + (I - Y F'(X)) (X - m)
+//! ```
+//!
+//! `Y` is any matrix near the inverse of `F'(m)`. Every zero in `X` is also in `K(X)`. So a box is
+//! empty if `K` and `X` have no point in common; `X` holds at most one zero if the norm of
+//! `I - Y F'(X)` is less than 1, and exactly one if also `K` lies inside `X` (R. Krawczyk,
+//! "Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken", *Computing* 4 (1969)
+//! 187-201; R. E. Moore, "A test for existence of solutions to nonlinear systems", *SIAM Journal on
+//! Numerical Analysis* 14 (1977) 611-615; for ray tracing D. L. Toth, "On ray tracing parametric
+//! surfaces", *SIGGRAPH* 1985).
+//!
+//! A function is known by its value and slopes at one point, with bounds on their errors, and by
+//! bounds on its second derivatives in a box. The change of a slope over a box of half-width `r` is
+//! then at most `(|F_uu| + |F_uv|) r`. All bounds are sums and products of numbers that are not
+//! negative, about thirty of them; [`ROUNDED`] pays for their rounding.
+
+use durer_math::U;
+
+/// Pays for the rounding of a few f64 operations on numbers that are bounds themselves.
+pub(crate) const ROUNDED: f64 = 1.0 + 128.0 * U;
+/// Steps of Newton's method: from a start in its basin, six give all digits.
+const NEWTON: usize = 10;
+/// A zero is accepted where slopes change by less than this part of themselves.
+const STEADY: f64 = 0.5;
+
+/// Both functions near a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Local {
+    /// The values at the point.
+    pub(crate) f: [f64; 2],
+    /// The slopes there: of function `i` along unknown `k`.
+    pub(crate) j: [[f64; 2]; 2],
+}
+
+/// What is known of both functions in a box: per function.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    /// Bounds on the errors of the values.
+    pub(crate) e: [f64; 2],
+    /// Bounds on the errors of the slopes.
+    pub(crate) e_j: [f64; 2],
+    /// Bounds on the second derivatives: along the first unknown, mixed, along the second.
+    pub(crate) h: [[f64; 3]; 2],
+}
+
+/// What a box may hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Content {
+    /// No zero.
+    Nothing,
+    /// At most one zero, which then is near this place, counted from the middle.
+    AtMostOne([f64; 2]),
+    /// Not known.
+    Unknown,
+}
+
+/// One zero, and proof of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Zero {
+    /// The zero, rounded.
+    pub(crate) x: [f64; 2],
+    /// It is within this distance of `x`, in each unknown.
+    pub(crate) radius: [f64; 2],
+    /// It is the only one within this distance of `x`.
+    pub(crate) alone: f64,
+    /// The sign of the determinant of the slopes there.
+    pub(crate) sign: i8,
+}
+
+/// An approximate inverse of the slopes.
+#[inline(always)]
+fn inverse(j: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    let det = j[0][0].mul_add(j[1][1], -(j[0][1] * j[1][0]));
+    let by = 1.0 / det;
+    let y = [[j[1][1] * by, -j[0][1] * by], [-j[1][0] * by, j[0][0] * by]];
+    y.iter().flatten().all(|y| y.is_finite()).then_some(y)
+}
+
+/// `|Y| e`.
+#[inline(always)]
+fn sized(y: &[f64; 2], e: &[f64; 2]) -> f64 {
+    y[0].abs().mul_add(e[0], y[1].abs() * e[1])
+}
+
+/// Bounds on the entries of a row of `I - Y F'(m)`, added up.
+#[inline(always)]
+fn residual(y: &[f64; 2], row: usize, j: &[[f64; 2]; 2], e_j: &[f64; 2]) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..2 {
+        let (a, b) = (y[0] * j[0][k], y[1] * j[1][k]);
+        let one = if k == row { 1.0 } else { 0.0 };
+        sum += (one - (a + b)).abs() + 4.0 * U * (one + a.abs() + b.abs());
+    }
+    sum + 2.0 * sized(y, e_j)
+}
+
+impl Limits {
+    /// By how much a row of `Y F'` changes, per unit of the half-width of a box, added up over both
+    /// unknowns.
+    #[inline(always)]
+    fn turning(&self, y: &[f64; 2]) -> f64 {
+        let all = |h: &[f64; 3]| h[0] + 2.0 * h[1] + h[2];
+        sized(y, &[all(&self.h[0]), all(&self.h[1])])
+    }
+
+    /// What the box of half-width `half` about the point of `at` holds. A box may be counted as one
+    /// with at most one zero only if that also holds for half-width `wide`.
+    #[inline(always)]
+    pub(crate) fn content(&self, at: &Local, half: f64, wide: f64) -> Content {
+        let mut rest = [0.0; 2];
+        for i in 0..2 {
+            let h = &self.h[i];
+            rest[i] = (0.5 * half * half).mul_add(h[0] + 2.0 * h[1] + h[2], self.e[i]);
+            let slopes = at.j[i][0].abs() + at.j[i][1].abs() + 2.0 * self.e_j[i];
+            if at.f[i].abs() > half.mul_add(slopes, rest[i]) * ROUNDED {
+                return Content::Nothing;
+            }
+        }
+        let Some(y) = inverse(&at.j) else { return Content::Unknown };
+        let mut x = [0.0; 2];
+        let mut one = true;
+        for i in 0..2 {
+            let step = y[i][0].mul_add(at.f[0], y[i][1] * at.f[1]);
+            let rounding = 4.0 * U * sized(&y[i], &[at.f[0].abs(), at.f[1].abs()]);
+            let off = residual(&y[i], i, &at.j, &self.e_j);
+            if step.abs() > (half + off.mul_add(half, sized(&y[i], &rest)) + rounding) * ROUNDED {
+                return Content::Nothing;
+            }
+            one &= wide.mul_add(self.turning(&y[i]), off) < 1.0 / ROUNDED;
+            x[i] = -step;
+        }
+        if one { Content::AtMostOne(x) } else { Content::Unknown }
+    }
+
+    /// The zero near `x`, found by Newton's method and proven; `None` if nothing can be proven.
+    /// `region` is where the limits hold, from the least to the greatest of each unknown, and
+    /// `within` where errors are known, and so where the functions may be evaluated.
+    #[inline(always)]
+    pub(crate) fn zero(
+        &self,
+        mut x: [f64; 2],
+        (region, within): (&[[f64; 2]; 2], &[[f64; 2]; 2]),
+        mut at: impl FnMut([f64; 2]) -> Local,
+    ) -> Option<Zero> {
+        for _ in 0..NEWTON {
+            for k in 0..2 {
+                x[k] = x[k].max(within[k][0]).min(within[k][1]);
+            }
+            let local = at(x);
+            let y = inverse(&local.j)?;
+            let (mut step, mut noise) = ([0.0; 2], [0.0; 2]);
+            for i in 0..2 {
+                step[i] = y[i][0].mul_add(local.f[0], y[i][1] * local.f[1]);
+                noise[i] = sized(&y[i], &self.e) * ROUNDED
+                    + 4.0 * U * (sized(&y[i], &[local.f[0].abs(), local.f[1].abs()]) + x[i].abs());
+            }
+            let moved = [x[0] - step[0], x[1] - step[1]];
+            if (0..2).all(|i| step[i].abs() <= 2.0 * noise[i] + U) {
+                return self.proven(&local, &y, (x, moved), (step, noise), region);
+            }
+            x = moved;
+        }
+        None
+    }
+
+    #[inline(always)]
+    fn proven(
+        &self,
+        local: &Local,
+        y: &[[f64; 2]; 2],
+        (x, moved): ([f64; 2], [f64; 2]),
+        (step, noise): ([f64; 2], [f64; 2]),
+        region: &[[f64; 2]; 2],
+    ) -> Option<Zero> {
+        let far = |i: usize| step[i].abs() + noise[i];
+        let r = 4.0 * far(0).max(far(1)) + U;
+        let (mut radius, mut alone) = ([0.0; 2], f64::INFINITY);
+        for i in 0..2 {
+            if x[i] - r < region[i][0] || x[i] + r > region[i][1] {
+                return None;
+            }
+            let (off, turning) = (residual(&y[i], i, &local.j, &self.e_j), self.turning(&y[i]));
+            let change = r.mul_add(turning, off) * ROUNDED;
+            // With the step a quarter and the change a half of r, K is inside X.
+            if change.is_nan() || change > STEADY {
+                return None;
+            }
+            radius[i] = r.mul_add(change, noise[i]) * ROUNDED;
+            // Also counted from the moved point.
+            alone = alone.min((0.875 - off) / (turning + f64::MIN_POSITIVE) - 2.0 * r);
+            alone = alone.min(x[i] - region[i][0] - r).min(region[i][1] - x[i] - r);
+        }
+        let det = local.j[0][0].mul_add(local.j[1][1], -(local.j[0][1] * local.j[1][0]));
+        let sign = if det > 0.0 { 1 } else { -1 };
+        Some(Zero { x: moved, radius, alone: alone.max(0.0), sign })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two circles of radius 1 about (-c, 0) and (c, 0): they meet in (0, +-sqrt(1 - c^2)).
+    fn circles(c: f64) -> impl Fn([f64; 2]) -> Local {
+        move |[u, v]| {
+            let (a, b) = (u + c, u - c);
+            Local {
+                f: [a.mul_add(a, v.mul_add(v, -1.0)), b.mul_add(b, v.mul_add(v, -1.0))],
+                j: [[2.0 * a, 2.0 * v], [2.0 * b, 2.0 * v]],
+            }
+        }
+    }
+
+    const ALL: [[f64; 2]; 2] = [[-2.0, 2.0]; 2];
+    const LIMITS: Limits = Limits { e: [8.0 * U; 2], e_j: [8.0 * U; 2], h: [[2.0, 0.0, 2.0]; 2] };
+
+    #[test]
+    fn a_zero_is_found_and_proven() {
+        let zero = LIMITS.zero([0.1, 0.9], (&ALL, &ALL), circles(0.6)).unwrap();
+        assert!(zero.x[0].abs() <= zero.radius[0] && (zero.x[1] - 0.8).abs() <= zero.radius[1]);
+        assert!(zero.radius[0].max(zero.radius[1]) < 64.0 * U, "{zero:?}");
+        assert!(zero.alone > 0.1, "{zero:?}");
+    }
+
+    #[test]
+    fn a_double_zero_is_not_proven() {
+        assert!(LIMITS.zero([0.0, 0.1], (&ALL, &ALL), circles(1.0)).is_none());
+    }
+
+    #[test]
+    fn boxes_without_zeros_are_known() {
+        let at = circles(0.6);
+        assert!(matches!(LIMITS.content(&at([0.0, 0.25]), 0.125, 0.125), Content::Nothing));
+        assert!(matches!(LIMITS.content(&at([0.05, 0.75]), 0.125, 0.125), Content::AtMostOne(_)));
+        assert!(matches!(LIMITS.content(&at([0.0, 0.0]), 1.0, 1.0), Content::Unknown));
+    }
+}
