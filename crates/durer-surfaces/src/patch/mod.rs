@@ -230,6 +230,10 @@ impl PartialEq for BezierPatch {
 }
 
 impl Surface for BezierPatch {
+    fn name(&self) -> &'static str {
+        "patch"
+    }
+
     fn bounds(&self) -> Aabb {
         self.shell.bounds
     }

@@ -358,6 +358,10 @@ impl PartialEq for Nurbs {
 }
 
 impl Surface for Nurbs {
+    fn name(&self) -> &'static str {
+        "NURBS surface"
+    }
+
     fn bounds(&self) -> Aabb {
         self.shell.bounds
     }
