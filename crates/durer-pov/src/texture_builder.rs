@@ -87,6 +87,7 @@ pub(crate) fn blend_of_patterns(at: Place) -> Box<Error> {
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
+
 /// A pattern of scene data: `part` converts an entry, `blend` mixes two.
 pub(crate) fn pattern_of<T: Clone, U>(
     pattern: &Pattern,

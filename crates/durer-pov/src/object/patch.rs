@@ -95,7 +95,7 @@ impl Parser<'_> {
                             return Err(Error::invalid(at, text));
                         }
                         kind = Some(value);
-                    } else if !(value >= 0.0) {
+                    } else if value < 0.0 {
                         // How finely it would be cut into triangles is not needed.
                         let text = format!("{} must not be negative: {value}", word.text());
                         return Err(Error::invalid(at, text));

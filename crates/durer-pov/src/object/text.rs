@@ -20,7 +20,8 @@ use crate::transform::Matrix;
 const NUMBERED: [&str; 4] = ["timrom.ttf", "cyrvetic.ttf", "crystal.ttf", "povlogo.ttf"];
 
 /// Outlines are in `x` and `z` of a prism, whose height is the letter's depth.
-const UPRIGHT: Matrix = Matrix { rows: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]] };
+const UPRIGHT: Matrix =
+    Matrix { rows: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]] };
 
 /// The outlines of a glyph as cubic curves, scaled to the em.
 struct Outlines {
@@ -128,8 +129,7 @@ impl Parser<'_> {
         };
         let bad = |why: String| Error::file(Some(at), format!("{}: {why}", path.display()));
         let bytes = read_bytes(&path, &self.options.limits, "a font").map_err(bad)?;
-        let face =
-            Face::parse(&bytes, 0).map_err(|why| bad(format!("not a font that can be read: {why}")))?;
+        let face = Face::parse(&bytes, 0).map_err(|why| bad(format!("not a font that can be read: {why}")))?;
         self.letters(&face, &text, thickness, offset, place)
     }
 
@@ -175,8 +175,13 @@ impl Parser<'_> {
                     pen[0] -= f64::from(left) * scale;
                 }
             }
-            let mut outlines =
-                Outlines { scale, done: Vec::new(), current: Vec::new(), start: [0.0; 2], at: [0.0; 2] };
+            let mut outlines = Outlines {
+                scale,
+                done: Vec::new(),
+                current: Vec::new(),
+                start: [0.0; 2],
+                at: [0.0; 2],
+            };
             if face.outline_glyph(id, &mut outlines).is_some() && !outlines.done.is_empty() {
                 let points: usize = outlines.done.iter().map(Vec::len).sum();
                 self.check_memory(points * 16, place)?;

@@ -62,10 +62,9 @@ impl Parser<'_> {
     /// Reads `function { ... }` as a pattern.
     fn function_kind(&mut self, place: Place) -> Result<PatternKind> {
         match self.function_block()? {
-            Value::Function(called) if called.formula.inputs() <= 3 => Ok(PatternKind::Ramp(
-                Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))),
-                place,
-            )),
+            Value::Function(called) if called.formula.inputs() <= 3 => {
+                Ok(PatternKind::Ramp(Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))), place))
+            }
             _ => Err(Error::invalid(place, "the function of a pattern gives one number for x, y and z")),
         }
     }

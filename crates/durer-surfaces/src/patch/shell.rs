@@ -167,7 +167,7 @@ fn is_shared(a: &Found, b: &Found) -> bool {
 fn distinct(found: &mut Vec<Found>) -> &[Found] {
     if found.len() > 1 {
         // Proven ones first.
-        found.sort_by(|a, b| b.sign.abs().cmp(&a.sign.abs()));
+        found.sort_by_key(|f| f.sign == 0);
         let mut kept = 0;
         for i in 0..found.len() {
             let new = found[i];
