@@ -19,7 +19,8 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         (None, Some(ray)) => ray,
         (None, None) => return Err(Failure::Usage("either --pixel or --ray is needed".to_owned())),
     };
-    println!("{}", loaded.lower()?.geometry.explain(&ray));
+    let explanation = loaded.lower()?.geometry.explain(&ray);
+    println!("{}", explanation.with_places(|object| loaded.place_of(object)));
     Ok(())
 }
 

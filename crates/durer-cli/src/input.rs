@@ -2,6 +2,7 @@
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
+use durer::ObjectId;
 use durer::math::Isa;
 use durer::mesh::{Format, Topology};
 use durer::pov::{Limits, MessageKind, Read, ReadOptions};
@@ -105,6 +106,14 @@ impl Loaded {
             Self::Pov(read) => &read.scene,
             Self::Mesh(_, scene) => scene,
         }
+    }
+
+    /// The file and line of an object's text, if it has one.
+    pub(crate) fn place_of(&self, object: ObjectId) -> Option<String> {
+        let Self::Pov(read) = self else { return None };
+        let place = read.scene.objects.get(object.0 as usize)?.place?;
+        let at = read.sources.locate(place)?;
+        Some(format!("{}:{}", at.path.display(), at.line))
     }
 
     /// The number of faces of each mesh of a mesh file, and how they are connected.

@@ -252,27 +252,51 @@ impl Story {
     }
 }
 
+impl Explanation {
+    /// The report in words, with the place in the scene's text of each object for which `place_of`
+    /// returns one.
+    pub fn with_places<'a>(
+        &'a self,
+        place_of: impl Fn(ObjectId) -> Option<String> + 'a,
+    ) -> impl fmt::Display + 'a {
+        InWords { explanation: self, place_of }
+    }
+}
+
 impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (o, d) = (self.ray.origin, self.ray.direction);
+        self.with_places(|_| None).fmt(f)
+    }
+}
+
+struct InWords<'a, P> {
+    explanation: &'a Explanation,
+    place_of: P,
+}
+
+impl<P: Fn(ObjectId) -> Option<String>> fmt::Display for InWords<'_, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Explanation { ray, valid, events, closest } = self.explanation;
+        let (o, d) = (ray.origin, ray.direction);
         writeln!(f, "ray from <{}, {}, {}> along <{}, {}, {}>", o.x, o.y, o.z, d.x, d.y, d.z)?;
-        writeln!(f, "    t in [{}, {}]", self.ray.t_min, self.ray.t_max)?;
-        if !self.valid {
+        writeln!(f, "    t in [{}, {}]", ray.t_min, ray.t_max)?;
+        if !valid {
             writeln!(f, "it is no ray (not finite, without direction, or with an empty range): it misses")?;
         }
-        for event in &self.events {
-            write!(f, "{event}")?;
+        for event in events {
+            event.write(f, &self.place_of)?;
         }
-        match &self.closest {
-            None => writeln!(f, "it meets nothing"),
-            Some(hit) => {
-                write!(f, "closest: object {}, primitive {}", hit.object, hit.primitive)?;
-                if hit.instance > 0 {
-                    write!(f, ", instance {}", hit.instance)?;
-                }
-                writeln!(f, ", at {}", Crossing(hit))
-            }
+        let Some(hit) = closest else {
+            return writeln!(f, "it meets nothing");
+        };
+        write!(f, "closest: object {}, primitive {}", hit.object, hit.primitive)?;
+        if let Some(place) = (self.place_of)(ObjectId(hit.object)) {
+            write!(f, " ({place})")?;
         }
+        if hit.instance > 0 {
+            write!(f, ", instance {}", hit.instance)?;
+        }
+        writeln!(f, ", at {}", Crossing(hit))
     }
 }
 
@@ -303,6 +327,16 @@ impl fmt::Display for Box<'_> {
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, &|_| None)
+    }
+}
+
+impl Event {
+    fn write(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        place_of: &dyn Fn(ObjectId) -> Option<String>,
+    ) -> fmt::Result {
         let indent = |f: &mut fmt::Formatter<'_>, depth: u32, level: u32| {
             write!(f, "{:width$}", "", width = 2 * (2 * depth + level) as usize)
         };
@@ -334,7 +368,11 @@ impl fmt::Display for Event {
             }
             Self::Tested { depth, surface, object, primitive, source, roots, has_more } => {
                 indent(f, *depth, 2)?;
-                write!(f, "{surface} (object {}, primitive {primitive})", object.0)?;
+                write!(f, "{surface} (object {}, primitive {primitive}", object.0)?;
+                if let Some(place) = place_of(*object) {
+                    write!(f, ", {place}")?;
+                }
+                write!(f, ")")?;
                 if *source {
                     write!(f, ", on which the ray starts")?;
                 }
