@@ -63,6 +63,8 @@ function show(next) {
   $("name").dataset.reads = next.reads;
   document.title = `${next.name} - durer`;
   $("channel").value = next.channel;
+  const view = $("channel").selectedOptions[0]?.textContent;
+  picture.setAttribute("aria-label", view === "picture" ? `Picture of ${next.name}` : `Picture of ${next.name}: ${view}`);
   if (![...$("aa").options].some(option => option.value === next.aa)) $("aa").add(new Option(next.aa, next.aa));
   $("aa").value = next.aa;
   $("reset").disabled = !next.moved;
