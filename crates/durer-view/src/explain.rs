@@ -11,14 +11,29 @@ use durer_scene::{Lowered, Place, Rgb};
 use durer_surfaces::RootKind;
 use serde_json::{Value, json};
 use std::collections::HashMap;
+use std::time::Duration;
 
 /// The most crossings that are listed.
 const MOST_CROSSINGS: usize = 2000;
 /// The most bytes of `explain`'s words.
 const MOST_WORDS: usize = 200_000;
 
+/// How often a ray is tried that a change of the picture has cut short.
+const TRIALS: u32 = 20;
+
 /// Everything about the ray through the middle of a pixel.
 pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, String> {
+    for _ in 0..TRIALS {
+        if let Some(value) = attempt(session, pixel)? {
+            return Ok(value);
+        }
+        std::thread::sleep(Duration::from_millis(30));
+    }
+    Err("the picture changes all the time".to_owned())
+}
+
+/// As [`pixel`]; `None` if the picture changed meanwhile.
+fn attempt(session: &Session, pixel: (u32, u32)) -> Result<Option<Value>, String> {
     let stage = &*session.stage();
     let ray = session.ray(&stage.world, pixel).ok_or("the scene has no camera")?;
     let lowered = stage.queries()?;
@@ -35,11 +50,10 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
     // The only step that may take long: a change of the picture ends it.
     let stop = Progress::none().cancelled_by(&session.cancel);
     let tracer = PixelTracer::new(&stage.world, session.file.size(), stop);
-    let tree =
-        tracer.map_err(|e| e.to_string())?.ray_tree(pixel).ok_or("the picture has changed meanwhile")?;
+    let Some(tree) = tracer.map_err(|e| e.to_string())?.ray_tree(pixel) else { return Ok(None) };
     let encoding = stage.world.encoding();
     let place = |hit: &Hit| source::place(&stage.scene, lowered, hit.object, hit.primitive);
-    Ok(json!({
+    Ok(Some(json!({
         "pixel": [pixel.0, pixel.1],
         "ray": { "origin": point(ray.origin), "direction": vector(ray.direction), "length": ray.direction.length() },
         "hit": explanation.closest.as_ref().map(|hit| first_hit(stage, lowered, &ray, hit, &names)),
@@ -49,7 +63,7 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
         "spans": spans.iter().map(span).collect::<Vec<_>>(),
         "tree": rays(stage, lowered, &tree, encoding),
         "words": words(&explanation),
-    }))
+    })))
 }
 
 /// The type of each surface that the search tested.
