@@ -63,6 +63,8 @@ function show(next) {
   $("name").dataset.reads = next.reads;
   document.title = `${next.name} - durer`;
   $("channel").value = next.channel;
+  const view = $("channel").selectedOptions[0]?.textContent;
+  picture.setAttribute("aria-label", view === "picture" ? `Picture of ${next.name}` : `Picture of ${next.name}: ${view}`);
   if (![...$("aa").options].some(option => option.value === next.aa)) $("aa").add(new Option(next.aa, next.aa));
   $("aa").value = next.aa;
   $("reset").disabled = !next.moved;
@@ -317,13 +319,7 @@ async function explain(x, y) {
   const mine = ++question;
   $("panel").setAttribute("aria-busy", "true");
   try {
-    const ask = () => fetch(`pixel?x=${chosen.x}&y=${chosen.y}`);
-    let answer = await ask();
-    // The picture changed meanwhile.
-    for (let i = 0; answer.status === 409 && i < 5 && mine === question; i++) {
-      await new Promise(done => setTimeout(done, 150));
-      answer = await ask();
-    }
+    const answer = await fetch(`pixel?x=${chosen.x}&y=${chosen.y}`);
     if (mine !== question) return;
     if (answer.ok) showPixel($("answer"), await answer.json());
     else showFailure($("answer"), await answer.text());
