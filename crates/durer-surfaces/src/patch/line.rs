@@ -117,10 +117,8 @@ impl<'a> View<'a> {
             limits: Limits { e: [0.0; 2], e_j: [0.0; 2], h: [[0.0; 3]; 2] },
             e_control: [0.0; 2],
         };
-        let size = #[inline(always)]
-        |k: usize| o[k].abs().mul_add(heaviest, cell.reach);
-        let times = #[inline(always)]
-        |k: usize| 1.0 + o[k].abs() * weight_err;
+        let size = |k: usize| o[k].abs().mul_add(heaviest, cell.reach);
+        let times = |k: usize| 1.0 + o[k].abs() * weight_err;
         let z = size(2);
         for i in 0..2 {
             let slope = line.slope[i].abs();
@@ -129,10 +127,8 @@ impl<'a> View<'a> {
             let rounding = U * (2.0 * size(i) + 2.0 * slope * z);
             view.e_control[i] = (cell.e_net.mul_add(both, given) + rounding) * ROUNDED;
             view.limits.e[i] = cell.e_point.mul_add(both, view.e_control[i]) * ROUNDED;
-            let steep = #[inline(always)]
-            |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
-            let first = #[inline(always)]
-            |d: &Homogeneous<f64>| {
+            let steep = |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
+            let first = |d: &Homogeneous<f64>| {
                 2.0 * U * slope.mul_add(steep(d, 2), steep(d, i)) + line.slope_err[i] * steep(d, 2)
                     + d[3] * slope.mul_add(o_err[2], o_err[i])
             };
@@ -150,8 +146,7 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn sheared(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
         let axes = &self.line.axes;
-        let of = #[inline(always)]
-        |k: usize| (-self.o[k]).mul_add(p[3], p[axes[k]]);
+        let of = |k: usize| (-self.o[k]).mul_add(p[3], p[axes[k]]);
         let (x, y, z) = (of(0), of(1), of(2));
         let [kx, ky] = self.line.slope;
         ([(-kx).mul_add(z, x), (-ky).mul_add(z, y)], z)

@@ -23,28 +23,30 @@ pub(super) fn between(a: Dd, b: Dd, t: Dd) -> Dd {
 /// polar forms", *Computer Aided Geometric Design* 6 (1989) 323-358).
 #[inline(always)]
 fn cut(curve: &mut [Homogeneous<Dd>], from: f64, to: f64) {
-    let n = curve.len();
-    let steps = #[inline(always)]
-    |curve: &mut [Homogeneous<Dd>], t: Dd, backwards: bool| {
-        for level in 1..n {
-            for i in 0..n - level {
-                // From the front the last point stays, from behind the first.
-                let k = if backwards { n - 1 - i } else { i };
-                let next = if backwards { k - 1 } else { k + 1 };
-                for c in 0..4 {
-                    curve[k][c] = if backwards {
-                        between(curve[next][c], curve[k][c], t)
-                    } else {
-                        between(curve[k][c], curve[next][c], t)
-                    };
-                }
-            }
-        }
-    };
     // First the part from `from` to 1, then of that the part up to `to`.
     steps(curve, Dd::from(from), false);
     let rest = Dd::difference(1.0, from);
     steps(curve, Dd::difference(to, from) / rest, true);
+}
+
+/// De Casteljau's algorithm in place: the control points from `t` on, or those up to `t`.
+#[inline(always)]
+fn steps(curve: &mut [Homogeneous<Dd>], t: Dd, backwards: bool) {
+    let n = curve.len();
+    for level in 1..n {
+        for i in 0..n - level {
+            // From the front the last point stays, from behind the first.
+            let k = if backwards { n - 1 - i } else { i };
+            let next = if backwards { k - 1 } else { k + 1 };
+            for c in 0..4 {
+                curve[k][c] = if backwards {
+                    between(curve[next][c], curve[k][c], t)
+                } else {
+                    between(curve[k][c], curve[next][c], t)
+                };
+            }
+        }
+    }
 }
 
 impl Net {
@@ -84,10 +86,8 @@ impl Net {
     /// Each point relative to `base`, rounded: coordinates less `base` times the weight.
     #[inline(always)]
     pub(super) fn relative(&self, base: [f64; 3]) -> Vec<Homogeneous<f64>> {
-        let about = #[inline(always)]
-        |p: &Homogeneous<Dd>| {
-            let of = #[inline(always)]
-            |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
+        let about = |p: &Homogeneous<Dd>| {
+            let of = |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
             [of(0), of(1), of(2), p[3].to_f64()]
         };
         self.points.iter().map(about).collect()

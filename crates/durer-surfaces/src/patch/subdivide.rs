@@ -134,8 +134,7 @@ impl Part {
 /// left singular vectors of the slopes.
 #[inline(always)]
 fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let dot = #[inline(always)]
-    |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
     let (p, q, r) = (dot(j[0], j[0]), dot(j[0], j[1]), dot(j[1], j[1]));
     // The direction of the larger eigenvalue of J J'.
     let half = 0.5 * (p - r);
