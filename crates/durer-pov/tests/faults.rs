@@ -140,8 +140,7 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    for word in ["text { }", "fog { distance 1 }", "sky_sphere { }", "media { }"]
-    {
+    for word in ["text { }", "fog { distance 1 }", "sky_sphere { }", "media { }"] {
         let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
         assert_eq!(fault(word).2, expected);
     }
@@ -163,13 +162,28 @@ fn patches_say_what_is_wrong_with_them() {
         ("bicubic_patch { u_steps -1 type 1 POINTS }", "u_steps must not be negative: -1"),
         ("bicubic_patch { POINTS }", "this bicubic_patch has no type: it needs `type 0` or `type 1`"),
         ("bicubic_patch { type 1 0, x }", "expected a number, vector or colour, found `}`"),
-        ("patch { 3, 17, POINTS }", "the points along a parameter of a bezier_spline patch must be a whole number from 2 to 16, not 17"),
-        ("patch { cubic_spline 3, 4, POINTS }", "the points along a parameter of a cubic_spline patch must be a whole number from 4 to 1048576, not 3"),
-        ("patch { 2, 2, 0, <1, 0, 0, -1>, y, x + y }", "the weight of point 2 of row 1 must be positive, not -1"),
+        (
+            "patch { 3, 17, POINTS }",
+            "the points along a parameter of a bezier_spline patch must be a whole number from 2 to 16, not 17",
+        ),
+        (
+            "patch { cubic_spline 3, 4, POINTS }",
+            "the points along a parameter of a cubic_spline patch must be a whole number from 4 to 1048576, not 3",
+        ),
+        (
+            "patch { 2, 2, 0, <1, 0, 0, -1>, y, x + y }",
+            "the weight of point 2 of row 1 must be positive, not -1",
+        ),
         ("nurbs { points 2, 2, 0, x, y, x + y }", "this nurbs lacks `degree DU, DV`"),
         ("nurbs { degree 40, 1 }", "a degree of a nurbs must be a whole number from 1 to 9, not 40"),
-        ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 3, 0, 0, 1 }", "nurbs: 4 knots are needed along u, got 3"),
-        ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 4, 0, 0, 2, 1 }", "knots must not fall: knot 4 is 1 after 2"),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 3, 0, 0, 1 }",
+            "nurbs: 4 knots are needed along u, got 3",
+        ),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 4, 0, 0, 2, 1 }",
+            "knots must not fall: knot 4 is 1 after 2",
+        ),
         ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { } }", "not supported yet: trim"),
     ] {
         assert_eq!(fault(&text.replace("POINTS", points)).2, wanted, "{text}");

@@ -5,8 +5,8 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape, Spline, Sweep, SweepSpline,
-    Terrain, TerrainData, Texture, Warp,
+    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
+    Spline, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -44,8 +44,8 @@ pub use crate::pattern::{Cells, Pattern, Ramp, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings};
 pub use crate::shape::{
-    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Patch, Prism, QuadricKind, Shape,
-    Spline, Sweep,
+    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Patch, Prism, QuadricKind,
+    Shape, Spline, Sweep,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;

@@ -6,8 +6,8 @@ use durer_math::{Point3, Vec3};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain, Texture,
-    Warp,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain,
+    Texture, Warp,
 };
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is

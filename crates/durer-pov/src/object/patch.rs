@@ -69,9 +69,8 @@ fn pieces(basis: Basis, p: &[[f64; 4]]) -> Vec<[f64; 4]> {
 fn as_bezier(basis: Basis, points: &[[f64; 4]], size: [usize; 2]) -> (Vec<[f64; 4]>, [usize; 2]) {
     let rows: Vec<_> = points.chunks_exact(size[0]).map(|row| pieces(basis, row)).collect();
     let width = rows[0].len();
-    let columns: Vec<_> = (0..width)
-        .map(|i| pieces(basis, &rows.iter().map(|row| row[i]).collect::<Vec<_>>()))
-        .collect();
+    let columns: Vec<_> =
+        (0..width).map(|i| pieces(basis, &rows.iter().map(|row| row[i]).collect::<Vec<_>>())).collect();
     let height = columns[0].len();
     let net = (0..height).flat_map(|j| columns.iter().map(move |column| column[j])).collect();
     (net, [width, height])
@@ -96,7 +95,7 @@ impl Parser<'_> {
                             return Err(Error::invalid(at, text));
                         }
                         kind = Some(value);
-                    } else if !(value >= 0.0) {
+                    } else if value < 0.0 {
                         // How finely it would be cut into triangles is not needed.
                         let text = format!("{} must not be negative: {value}", word.text());
                         return Err(Error::invalid(at, text));
@@ -106,7 +105,10 @@ impl Parser<'_> {
             }
         }
         if kind.is_none() {
-            return Err(Error::invalid(place, "this bicubic_patch has no type: it needs `type 0` or `type 1`"));
+            return Err(Error::invalid(
+                place,
+                "this bicubic_patch has no type: it needs `type 0` or `type 1`",
+            ));
         }
         let uv = self.uv_corners()?;
         let points = self.net(16)?;
@@ -166,8 +168,7 @@ impl Parser<'_> {
                 }
                 let (net, size) = as_bezier(basis, &points, size);
                 let knots = size.map(joined);
-                let data =
-                    NurbsData { degree: [3; 2], size, points: net, knots, ..NurbsData::default() };
+                let data = NurbsData { degree: [3; 2], size, points: net, knots, ..NurbsData::default() };
                 self.checked_nurbs(data, place)
             }
         }
@@ -237,7 +238,10 @@ impl Parser<'_> {
             self.check_memory(n * 8, at)?;
             if knots.last().is_some_and(|last| knot < *last) {
                 let (k, before) = (n + 1, knots[n - 1]);
-                return Err(Error::invalid(at, format!("knots must not fall: knot {k} is {knot} after {before}")));
+                return Err(Error::invalid(
+                    at,
+                    format!("knots must not fall: knot {k} is {knot} after {before}"),
+                ));
             }
             knots.push(knot);
         }
@@ -277,7 +281,8 @@ impl Parser<'_> {
             };
             if !(weight > 0.0 && weight.is_finite()) {
                 let (row, column) = (n / nu + 1, n % nu + 1);
-                let text = format!("the weight of point {column} of row {row} must be positive, not {weight}");
+                let text =
+                    format!("the weight of point {column} of row {row} must be positive, not {weight}");
                 return Err(Error::invalid(at, text));
             }
             points.push([x, y, z, weight]);

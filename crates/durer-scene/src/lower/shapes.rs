@@ -4,10 +4,10 @@ use std::fmt::Display;
 
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
-    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder, CurvedPrism,
-    Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError, Parallelogram, PatchError, Plane, Polygon,
-    PolygonError, Prism, Quadric, Region, Sphere, SphereSweep, SphereSweepError, SphericalSector,
-    SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
+    CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
+    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
+    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};

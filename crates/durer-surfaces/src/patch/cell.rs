@@ -70,8 +70,7 @@ pub(super) fn basis(n: usize, t: f64) -> ([f64; MOST], [f64; MOST]) {
     if n == 4 {
         let (ss, st, tt) = (s * s, s * t, t * t);
         (b[0], b[1], b[2], b[3]) = (ss * s, 3.0 * ss * t, 3.0 * s * tt, tt * t);
-        (d[0], d[1], d[2], d[3]) =
-            (-3.0 * ss, 3.0 * (ss - 2.0 * st), 3.0 * (2.0 * st - tt), 3.0 * tt);
+        (d[0], d[1], d[2], d[3]) = (-3.0 * ss, 3.0 * (ss - 2.0 * st), 3.0 * (2.0 * st - tt), 3.0 * tt);
         return (b, d);
     }
     b[0] = 1.0;
@@ -134,18 +133,15 @@ impl Cell {
         let to = [from[0] + width[0], from[1] + width[1]];
         let own = patch.part(from, to);
         let beyond = [0, 1].map(|k| MARGIN * width[k]);
-        let wide = patch.part(
-            [from[0] - beyond[0], from[1] - beyond[1]],
-            [to[0] + beyond[0], to[1] + beyond[1]],
-        );
+        let wide =
+            patch.part([from[0] - beyond[0], from[1] - beyond[1]], [to[0] + beyond[0], to[1] + beyond[1]]);
         let plain = own.relative([0.0; 3]);
         let at = point_of(&plain, size, [0.5, 0.5])[0];
         let base = [0, 1, 2].map(|k| at[k] / at[3]);
         let mut net = own.relative(base);
         let far = wide.relative(base);
-        let most = |net: &[Homogeneous<f64>]| {
-            net.iter().flat_map(|p| &p[..3]).fold(0.0, |m: f64, x| m.max(x.abs()))
-        };
+        let most =
+            |net: &[Homogeneous<f64>]| net.iter().flat_map(|p| &p[..3]).fold(0.0, |m: f64, x| m.max(x.abs()));
         let reach = most(&net);
         let wide_reach = reach.max(most(&far));
         let most_weight = far.iter().fold(0.0, |m: f64, p| m.max(p[3].abs()));

@@ -45,8 +45,7 @@ impl Line {
         } else {
             [0, 1, 2]
         };
-        let [o, o_err, d, d_err] =
-            [at.o, at.o_err, at.d, at.d_err].map(|v| axes.map(|axis| v[axis]));
+        let [o, o_err, d, d_err] = [at.o, at.o_err, at.d, at.d_err].map(|v| axes.map(|axis| v[axis]));
         let slope = [d[0] / d[2], d[1] / d[2]];
         // |d_z| is 1 at least; what is known worse than that is not known at all.
         let known = (d[2].abs() - d_err[2]).max(0.0);
@@ -129,7 +128,8 @@ impl<'a> View<'a> {
             view.limits.e[i] = cell.e_point.mul_add(both, view.e_control[i]) * ROUNDED;
             let steep = |h: &Homogeneous<f64>, k: usize| o[k].abs().mul_add(h[3], h[line.axes[k]]);
             let first = |d: &Homogeneous<f64>| {
-                2.0 * U * slope.mul_add(steep(d, 2), steep(d, i)) + line.slope_err[i] * steep(d, 2)
+                2.0 * U * slope.mul_add(steep(d, 2), steep(d, i))
+                    + line.slope_err[i] * steep(d, 2)
                     + d[3] * slope.mul_add(o_err[2], o_err[i])
             };
             let slopes = first(&cell.first[0]).max(first(&cell.first[1]));
@@ -215,10 +215,14 @@ impl<'a> View<'a> {
         let slope = |d: &Homogeneous<f64>| ((p[z_axis] / w).abs() * d[3].abs() + d[z_axis].abs()) / w;
         let bend = |h: &Homogeneous<f64>| (cell.reach / w) * h[3] + h[z_axis];
         let [ru, rv] = zero.radius;
-        let rest = bend(&cell.second[0]) * ru * ru + 2.0 * bend(&cell.second[1]) * ru * rv
+        let rest = bend(&cell.second[0]) * ru * ru
+            + 2.0 * bend(&cell.second[1]) * ru * rv
             + bend(&cell.second[2]) * rv * rv;
-        let weight_err =
-            if self.rational { self.o[2].abs() * cell.weights[0] / cell.reach.max(f64::MIN_POSITIVE) } else { 0.0 };
+        let weight_err = if self.rational {
+            self.o[2].abs() * cell.weights[0] / cell.reach.max(f64::MIN_POSITIVE)
+        } else {
+            0.0
+        };
         let z_err = slope(&pu) * ru
             + slope(&pv) * rv
             + 2.0 * rest / w
@@ -259,9 +263,8 @@ impl<'a> View<'a> {
         let x = [from[0] + half[0], from[1] + half[1]];
         let [p, ..] = cell.at(self.rational, x);
         let z = (-self.o[2]).mul_add(p[3], p[z_axis]) / p[3];
-        let slope = |d: &Homogeneous<f64>| {
-            ((cell.reach / cell.weights[1]) * d[3] + d[z_axis]) / cell.weights[1]
-        };
+        let slope =
+            |d: &Homogeneous<f64>| ((cell.reach / cell.weights[1]) * d[3] + d[z_axis]) / cell.weights[1];
         let z_err = slope(&cell.first[0]) * half[0]
             + slope(&cell.first[1]) * half[1]
             + 4.0 * (cell.e_net + cell.e_point) / cell.weights[1] * (1.0 + self.o[2].abs() / cell.weights[1])
@@ -284,7 +287,5 @@ impl<'a> View<'a> {
 /// Whether a zero may be in a closed box.
 #[inline(always)]
 pub(super) fn touches(zero: &Zero, from: [f64; 2], width: [f64; 2]) -> bool {
-    (0..2).all(|k| {
-        zero.x[k] + zero.radius[k] >= from[k] && zero.x[k] - zero.radius[k] <= from[k] + width[k]
-    })
+    (0..2).all(|k| zero.x[k] + zero.radius[k] >= from[k] && zero.x[k] - zero.radius[k] <= from[k] + width[k])
 }

@@ -96,11 +96,7 @@ impl Net {
 
 /// The greatest magnitude of the differences of a net, `along` times in each direction; times the
 /// factor that makes derivatives of them.
-pub(super) fn steepest(
-    points: &[Homogeneous<f64>],
-    size: [usize; 2],
-    along: [usize; 2],
-) -> Homogeneous<f64> {
+pub(super) fn steepest(points: &[Homogeneous<f64>], size: [usize; 2], along: [usize; 2]) -> Homogeneous<f64> {
     let mut now: Vec<Homogeneous<f64>> = points.to_vec();
     let [mut nu, mut nv] = size;
     let mut factor = 1.0;

@@ -157,8 +157,7 @@ fn overlap(a: &Found, b: &Found) -> bool {
 /// the same place of the line, in the same direction.
 #[inline(always)]
 fn is_shared(a: &Found, b: &Found) -> bool {
-    let on_edge =
-        |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
+    let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
     a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
 }
 
@@ -168,7 +167,7 @@ fn is_shared(a: &Found, b: &Found) -> bool {
 fn distinct(found: &mut Vec<Found>) -> &[Found] {
     if found.len() > 1 {
         // Proven ones first.
-        found.sort_by(|a, b| b.sign.abs().cmp(&a.sign.abs()));
+        found.sort_by_key(|f| f.sign == 0);
         let mut kept = 0;
         for i in 0..found.len() {
             let new = found[i];

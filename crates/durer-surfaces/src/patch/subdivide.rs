@@ -46,7 +46,7 @@ impl Part {
     fn is_clear_of(&self, by: [f64; 2]) -> bool {
         let (low, high) = range(&self.f, by);
         let most = low.abs().max(high.abs());
-        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * U * self.most(by) ;
+        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * U * self.most(by);
         most > 0.0 && (low > e || high < -e)
     }
 

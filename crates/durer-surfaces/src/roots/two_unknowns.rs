@@ -16,6 +16,7 @@
 //! bounds on its second derivatives in a box. The change of a slope over a box of half-width `r` is
 //! then at most `(|F_uu| + |F_uv|) r`. All bounds are sums and products of numbers that are not
 //! negative, about thirty of them; [`ROUNDED`] pays for their rounding.
+#![expect(clippy::needless_range_loop, reason = "several arrays have the same rows and columns")]
 
 use durer_math::U;
 

