@@ -167,7 +167,7 @@ def wrong_values(x):
         "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }": "", "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, -1> } }": "",
         "mesh2 { vertex_vectors { -3, 0, x, y } face_indices { 1, <0, 1, 2> } }": "", "mesh2 { vertex_vectors { 1e9, 0, x, y } face_indices { 1, <0, 1, 2> } }": "",
         "polygon { 2, 0, x }": "", "polygon { 1e18, 0, x, y }": "", "polygon { -4, 0, x, y, 0 }": "", "triangle { 0, x }": "", "sphere { 0 }": "", "sphere { }": "", "sphere": "",
-        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { disc { 0, y, 1 } } }": "disc", "bicubic_patch { 1 }": "not supported yet: bicubic_patch",
+        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { disc { 0, y, 1 } } }": "disc", "text { 1 }": "not supported yet: text",
         "blob { threshold 1 }": "no components", "blob { threshold -1 sphere { 0, 1, 1 } }": "greater than 0", "blob { sphere { 0, 1, 2 texture { gradient x } } }": "has no textures", "blob { sphere { 0, 1, 2 interior { ior 1.5 } } }": "a transform or the texture of the component",
         "deform { blob { sphere { 0, 1, 2 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }": "whose components have textures",
         "julia_fractal { <0, 0, 0, 0> slice x, 0 }": "fourth component", "julia_fractal { <0, 0, 0, 0> max_iteration -1 }": "0 to 1000", "julia_fractal { 0 hypercomplex exp }": "not supported yet: exp", "superellipsoid { <0, 1> }": "between", "superellipsoid { <1, -1> }": "between", "superellipsoid { }": "", "blob { cylinder { 0, 0, 1, 1 } }": "same point", "isosurface { function { f_nowhere(x) } }": "f_nowhere",

@@ -2,7 +2,7 @@
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
-use durer::ObjectId;
+use durer::geometry::ObjectId;
 use durer::math::Isa;
 use durer::mesh::{Format, Topology};
 use durer::pov::{Limits, MessageKind, Read, ReadOptions};
