@@ -119,8 +119,8 @@ impl Rig {
 
     fn pan(&mut self, x: f64, y: f64) {
         let size = match self.camera.projection {
-            Projection::Perspective => self.depth(),
             Projection::Orthographic => 1.0,
+            _ => self.depth(),
         };
         let by = self.camera.right * (-x * size) + self.camera.up * (y * size);
         self.camera.location = self.camera.location + by;
@@ -129,13 +129,11 @@ impl Rig {
 
     fn zoom(&mut self, by: f64) {
         match self.camera.projection {
-            Projection::Perspective => {
-                self.camera.location = self.pivot + (self.camera.location - self.pivot) * by;
-            }
             Projection::Orthographic => {
                 self.camera.right = self.camera.right * by;
                 self.camera.up = self.camera.up * by;
             }
+            _ => self.camera.location = self.pivot + (self.camera.location - self.pivot) * by,
         }
     }
 
@@ -150,7 +148,7 @@ impl Rig {
                 let along = c.direction * (away.dot(c.direction) / c.direction.dot(c.direction));
                 c.location = c.location + (away - along);
             }
-            Projection::Perspective => {
+            _ => {
                 let hand = if c.right.cross(c.up).dot(c.direction) < 0.0 { 1.0 } else { -1.0 };
                 let (long, wide, high) = (c.direction.length(), c.right.length(), c.up.length());
                 let ahead = target - c.location;
@@ -172,8 +170,18 @@ impl Rig {
     pub(crate) fn text(&self) -> String {
         let c = &self.camera;
         let kind = match c.projection {
-            Projection::Perspective => "perspective",
-            Projection::Orthographic => "orthographic",
+            Projection::Perspective => "perspective".to_owned(),
+            Projection::Orthographic => "orthographic".to_owned(),
+            Projection::Fisheye(angle) => format!("fisheye angle {}", angle.to_degrees()),
+            Projection::UltraWideAngle(angle) => format!("ultra_wide_angle angle {}", angle.to_degrees()),
+            Projection::Panoramic => "panoramic".to_owned(),
+            Projection::Spherical(across, high) => {
+                format!("spherical angle {}, {}", across.to_degrees(), high.to_degrees())
+            }
+            Projection::Cylinder { angle, vertical, moving } => {
+                let number = 1 + u32::from(!vertical) + 2 * u32::from(moving);
+                format!("cylinder {number} angle {}", angle.to_degrees())
+            }
         };
         let mut text = format!("camera {{\n  {kind}\n");
         let vectors =
