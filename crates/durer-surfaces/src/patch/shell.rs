@@ -158,7 +158,8 @@ fn overlap(a: &Found, b: &Found) -> bool {
 #[inline(always)]
 fn is_shared(a: &Found, b: &Found) -> bool {
     let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
-    a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+    let alike = a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
+    alike && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
 }
 
 /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
@@ -179,13 +180,17 @@ fn distinct(found: &mut Vec<Found>) -> &[Found] {
                 }
             };
             match found[..kept].iter().position(same) {
-                Some(k) if found[k].sign != 0 => {
-                    // Of two proofs the sharper one is kept.
-                    if new.sign != 0 && new.s_err < found[k].s_err {
-                        found[k] = new;
+                Some(k) => {
+                    let old = &mut found[k];
+                    let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
+                    if old.sign == 0 || !known {
+                        // Nothing says whether that is one crossing or two.
+                        *old = joined(old, &new);
+                    } else if new.sign != 0 && new.s_err < old.s_err {
+                        // Of two proofs the sharper one is kept.
+                        *old = new;
                     }
                 }
-                Some(k) => found[k] = joined(&found[k], &new),
                 None => {
                     found[kept] = new;
                     kept += 1;
@@ -221,7 +226,7 @@ fn join_all(found: &mut Vec<Found>) {
     }
 }
 
-/// A box that holds two others.
+/// A box that holds two others, in which nothing is proven.
 fn joined(a: &Found, b: &Found) -> Found {
     let (mut out, wider) = (*a, 1.0 + 4.0 * U);
     // Parameters of different patches do not mix.
@@ -232,6 +237,7 @@ fn joined(a: &Found, b: &Found) -> Found {
     }
     let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));
     (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
+    (out.sign, out.alone) = (0, [0.0; 2]);
     out.turn = if a.turn == b.turn { a.turn } else { 0 };
     out
 }

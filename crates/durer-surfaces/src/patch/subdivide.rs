@@ -8,7 +8,7 @@
 //! charged; what remains is halved or proven by Krawczyk's test, and a zero on the border of two
 //! parts is recognised later, because each has a proof that it is alone in a wider box.
 
-use super::cell::{MARGIN, basis, power, sums};
+use super::cell::{MARGIN, basis, power};
 use super::line::{Found, View, touches};
 use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED};
 use durer_math::{Isa, U};
@@ -94,7 +94,8 @@ impl Part {
             for k in 0..3 {
                 limits.h[i][k] = if factors[k] > 0.0 { factors[k] * (h[k] + slack) * wide } else { 0.0 };
             }
-            limits.e[i] = sums([nu, nv]).mul_add(U * most, self.e[i]) * ROUNDED;
+            // In the middle the Bernstein polynomials are exact; one sum of all terms rounds.
+            limits.e[i] = ((nu * nv + 2) as f64).mul_add(U * most, self.e[i]) * ROUNDED;
             limits.e_j[i] = 2.0 * degree_u.max(degree_v) * limits.e[i];
         }
         (local, limits)

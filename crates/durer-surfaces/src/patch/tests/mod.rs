@@ -29,7 +29,8 @@ impl Tally {
         println!(
             "{rays} rays, {untested} not tested, {roots} roots, {uncertain} uncertain, {outside} beside, {median} ulp"
         );
-        assert!(*outside * 100 < *roots, "too many roots beside an edge");
+        // Half of the rays aim at edges.
+        assert!(*outside * 25 < *roots, "too many roots beside an edge");
         median
     }
 }
