@@ -272,5 +272,9 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
 /// A point in a pattern's space with turbulence, as most patterns use it.
 pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
     let turbulence = *pattern.modifiers.turbulence;
-    if pattern.kind.stirs_itself() || turbulence.is_none() { Some(own) } else { Draft { b, turbulence }.stirred(own) }
+    if pattern.kind.stirs_itself() || turbulence.is_none() {
+        Some(own)
+    } else {
+        Draft { b, turbulence }.stirred(own)
+    }
 }

@@ -550,7 +550,11 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{spline} #declare G = function {{ S(x, y).x }};"), 70, "takes 1 argument");
     says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
     says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
-    says("#declare F = function { pigment { crackle } }; sphere { 0, F(1, 2, 3).red }", 60, "this pattern as a function");
+    says(
+        "#declare F = function { pigment { crackle } }; sphere { 0, F(1, 2, 3).red }",
+        60,
+        "this pattern as a function",
+    );
     says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");
     says("#declare F = function { pigment { spherical scale <1, 1, 1e-320> } };", 45, "singular");
     says("#declare F = function(a) { pigment { spherical } };", 28, "no parameters");

@@ -216,8 +216,11 @@ fn energy_is_conserved_in_each_channel() {
 
 #[test]
 fn layers_are_seen_through_each_other() {
-    let layer =
-        |c, finish: Finish| Layer { pigment: Pigment::solid(Colour::from_terms(c)), finish: finish.into(), normal: None };
+    let layer = |c, finish: Finish| Layer {
+        pigment: Pigment::solid(Colour::from_terms(c)),
+        finish: finish.into(),
+        normal: None,
+    };
     let red = layer([1.0, 0.0, 0.0, 0.0, 0.0], glowing());
     let green = layer([0.0, 1.0, 0.0, 0.0, 0.5], glowing());
     check(&scene(vec![plane(Texture::layers(vec![red, green]))]), [0.5, 0.5, 0.0]);

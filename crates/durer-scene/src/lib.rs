@@ -49,9 +49,7 @@ pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
-pub use crate::ramp::{
-    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples,
-};
+pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Prism, QuadricKind, Shape,

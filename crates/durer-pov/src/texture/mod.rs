@@ -185,7 +185,10 @@ impl Parser<'_> {
         };
         let place = self.here();
         let Texture::Layers(layers) = texture else {
-            return Err(Error::invalid(place, "a patterned texture has no pigment, normal or finish of its own"));
+            return Err(Error::invalid(
+                place,
+                "a patterned texture has no pigment, normal or finish of its own",
+            ));
         };
         let Some(top) = layers.last_mut() else { return Ok(false) };
         match part {

@@ -172,15 +172,7 @@ impl<'w> Onward<'w> {
                                 Some((view, plain)) => mirrored(view, Some(plain)),
                                 None => mirrored(&spot.view, None),
                             };
-                            send(
-                                reflected,
-                                spot,
-                                direction,
-                                weight,
-                                factor,
-                                lanes,
-                                &mut counts.reflected,
-                            );
+                            send(reflected, spot, direction, weight, factor, lanes, &mut counts.reflected);
                         }
                     }
                 },

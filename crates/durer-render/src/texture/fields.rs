@@ -127,7 +127,9 @@ mod tests {
             textures,
             rest: grey(0.0),
         };
-        let paint = |texture: &Texture, around: &Affine| RenderTexture::new(texture, around, &Affine::IDENTITY, Rgb::WHITE);
+        let paint = |texture: &Texture, around: &Affine| {
+            RenderTexture::new(texture, around, &Affine::IDENTITY, Rgb::WHITE)
+        };
         let weights =
             Weights::new(&fields, &Affine::translation(Vec3::new(0.0, 3.0, 0.0)).unwrap(), paint).unwrap();
         let mut shown = Vec::new();

@@ -341,7 +341,8 @@ impl RenderTexture {
             TextureBody::Pattern(pattern) => {
                 let own = joined()?;
                 let world = own.then(outer)?;
-                let part = |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
+                let part =
+                    |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
                 Self::Pattern(Place::warped(&own, pattern), Box::new(Blend::new(pattern, part)?))
             }
             TextureBody::Fields(fields) => {

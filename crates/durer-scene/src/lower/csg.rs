@@ -266,7 +266,9 @@ fn lent<'s>(
     if !lent.is_sure {
         return Err(Lent::unsure().at(at));
     }
-    Ok(Some(Arc::new(Texture::pattern(Pattern::Mean(lent.textures.into_iter().map(|texture| (1.0, texture)).collect())))))
+    Ok(Some(Arc::new(Texture::pattern(Pattern::Mean(
+        lent.textures.into_iter().map(|texture| (1.0, texture)).collect(),
+    )))))
 }
 
 /// The textures of the leaves that hold a point.

@@ -388,9 +388,7 @@ impl Lowering {
         // it means leaving this object only.
         let medium = match context.medium {
             Some(medium) => medium,
-            None if is_clear || context.flags.hollow => {
-                self.medium(&Arc::default(), context.flags.hollow)
-            }
+            None if is_clear || context.flags.hollow => self.medium(&Arc::default(), context.flags.hollow),
             None => 0,
         };
         let flags = context.flags;

@@ -63,9 +63,7 @@ impl Pusher {
                 let v = Vec3::new(half(p.x), half(p.y), half(p.z));
                 v * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top)
             }
-            Self::Facets(size, points) => {
-                points.vector((p.to_vec() * (1.0 / size)).to_point()) * FACET
-            }
+            Self::Facets(size, points) => points.vector((p.to_vec() * (1.0 / size)).to_point()) * FACET,
         }
     }
 }
