@@ -20,6 +20,9 @@ pub(super) struct Lamps<'w> {
     falling: Vec<Falling>,
 }
 
+/// The views of a layer with perturbed normals, and of the unperturbed surface.
+type Bent<'a> = (&'a [View], &'a [View]);
+
 /// How a light falls on eight points.
 #[derive(Clone, Copy)]
 struct Falling {
@@ -192,7 +195,7 @@ impl<'w> Lamps<'w> {
         &mut self,
         isa: Isa,
         finish: &Finish,
-        (lit, bent): (&[Lit], Option<(&[View], &[View])>),
+        (lit, bent): (&[Lit], Option<Bent<'_>>),
         spots: &[Spot],
     ) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));

@@ -52,7 +52,7 @@ impl Pusher {
                 let (mut sum, mut scale) = (Vec3::ZERO, 1.0);
                 for _ in 0..OCTAVES {
                     let v = noise_vector((p.to_vec() * scale).to_point());
-                    sum = sum + Vec3::new(v.x.abs(), v.y.abs(), v.z.abs()) * (1.18 / scale);
+                    sum += Vec3::new(v.x.abs(), v.y.abs(), v.z.abs()) * (1.18 / scale);
                     scale *= 2.0;
                 }
                 sum
