@@ -68,7 +68,11 @@ impl Fog {
         Some(durer_scene::Fog {
             colour: durer_scene::Colour::from_terms(self.colour),
             distance: self.distance,
-            ground: self.is_ground.then_some(durer_scene::GroundFog { up, offset: self.offset, fade: self.fade }),
+            ground: self.is_ground.then_some(durer_scene::GroundFog {
+                up,
+                offset: self.offset,
+                fade: self.fade,
+            }),
             turbulence: (!self.turbulence.is_none()).then(|| self.turbulence.scene()),
             turbulence_depth: self.turbulence_depth,
         })

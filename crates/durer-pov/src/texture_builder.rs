@@ -87,7 +87,6 @@ pub(crate) fn blend_of_patterns(at: Place) -> Box<Error> {
     Error::at(at, ErrorKind::Unsupported, text)
 }
 
-
 /// A pattern of scene data: `part` converts an entry, `blend` mixes two.
 pub(crate) fn pattern_of<T: Clone, U>(
     pattern: &Pattern,
@@ -199,8 +198,9 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         PatternKind::Gradient(direction) => return Ok(scene::Ramp::Gradient(vector(*direction))),
         PatternKind::Ramp(ramp, _) => {
             let mut ramp = (**ramp).clone();
-            if let scene::Ramp::Spiral { turbulence, .. } = &mut ramp {
-                *turbulence = stirred();
+            // Turbulence also shifts spirals as a whole (a fact of the language).
+            if let scene::Ramp::Spiral { shift, .. } = &mut ramp {
+                *shift = own.amount[0];
             }
             return Ok(ramp);
         }

@@ -65,8 +65,7 @@ impl RenderFog {
             let way = match &self.ground {
                 None => s,
                 Some(ground) => {
-                    let (origin, direction) =
-                        (ways.origin.to_vec().lane(i), ways.direction.lane(i));
+                    let (origin, direction) = (ways.origin.to_vec().lane(i), ways.direction.lane(i));
                     ground_way(ground, dot(ground.up, origin), dot(ground.up, direction), s)
                 }
             };

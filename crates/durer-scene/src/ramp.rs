@@ -36,8 +36,8 @@ pub enum Ramp {
         arms: f64,
         /// Whether a second spiral is laid over it.
         double: bool,
-        /// Stirs the spiral in its own way.
-        turbulence: Option<Turbulence>,
+        /// A shift of the spiral along z.
+        shift: f64,
     },
     /// Cushions in unit cubes. The two numbers bend the seam at its bottom and at its top.
     Quilted(f64, f64),

@@ -3,10 +3,11 @@
 //! One unit is the font's em. The letters stand on the x axis from the origin, and reach from the
 //! plane `z = 0` to `z = thickness`.
 
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use durer_scene::{Curve, Prism, Spline, Sweep};
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Place, Result};
@@ -20,8 +21,7 @@ use crate::transform::Matrix;
 const NUMBERED: [&str; 4] = ["timrom.ttf", "cyrvetic.ttf", "crystal.ttf", "povlogo.ttf"];
 
 /// Outlines are in `x` and `z` of a prism, whose height is the letter's depth.
-const UPRIGHT: Matrix =
-    Matrix { rows: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]] };
+const UPRIGHT: Matrix = Matrix { rows: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]] };
 
 /// The outlines of a glyph as cubic curves, scaled to the em.
 struct Outlines {
@@ -91,11 +91,38 @@ fn glyph(face: &Face<'_>, letter: char) -> GlyphId {
     found.or_else(|| any(code)).or_else(|| any(code + 0xf000)).unwrap_or(GlyphId(0))
 }
 
-/// How much nearer two glyphs stand than their widths say, in units of the font.
-fn kerning(face: &Face<'_>, left: GlyphId, right: GlyphId) -> f64 {
-    let tables = face.tables().kern.iter().flat_map(|kern| kern.subtables);
-    let near = tables.filter(|table| table.horizontal && !table.variable);
-    near.filter_map(|table| table.glyphs_kerning(left, right)).map(f64::from).next().unwrap_or(0.0)
+/// How much farther apart pairs of glyphs stand than their widths say, in units of the font.
+///
+/// Old fonts do not sort their pairs, so the table is read from its beginning to its end.
+fn kerning(face: &Face<'_>) -> HashMap<[u16; 2], i16> {
+    let table = face.raw_face().table(Tag::from_bytes(b"kern")).unwrap_or(&[]);
+    let word = |at: usize| {
+        let bytes = table.get(at..at + 2)?;
+        Some(u16::from_be_bytes([bytes[0], bytes[1]]))
+    };
+    let mut pairs = HashMap::new();
+    // Version 0: the number of subtables, and for each its version, length and coverage.
+    let count = if word(0) == Some(0) { word(2).unwrap_or(0) } else { 0 };
+    let mut start = 4;
+    for _ in 0..count {
+        let (Some(length), Some(coverage), Some(length_of_list)) =
+            (word(start + 2), word(start + 4), word(start + 6))
+        else {
+            break;
+        };
+        // Format 0, horizontal: a list of pairs.
+        if coverage >> 8 == 0 && coverage & 1 == 1 {
+            for pair in 0..usize::from(length_of_list) {
+                let at = start + 14 + 6 * pair;
+                let (Some(left), Some(right), Some(way)) = (word(at), word(at + 2), word(at + 4)) else {
+                    break;
+                };
+                pairs.entry([left, right]).or_insert(way as i16);
+            }
+        }
+        start += usize::from(length).max(1);
+    }
+    pairs
 }
 
 impl Parser<'_> {
@@ -129,7 +156,8 @@ impl Parser<'_> {
         };
         let bad = |why: String| Error::file(Some(at), format!("{}: {why}", path.display()));
         let bytes = read_bytes(&path, &self.options.limits, "a font").map_err(bad)?;
-        let face = Face::parse(&bytes, 0).map_err(|why| bad(format!("not a font that can be read: {why}")))?;
+        let face =
+            Face::parse(&bytes, 0).map_err(|why| bad(format!("not a font that can be read: {why}")))?;
         self.letters(&face, &text, thickness, offset, place)
     }
 
@@ -162,26 +190,24 @@ impl Parser<'_> {
         place: Place,
     ) -> Result<Shape> {
         let scale = 1.0 / f64::from(face.units_per_em());
+        let pairs = kerning(face);
         let mut pen = [0.0; 3];
         let mut before = None;
         let mut parts = Vec::new();
         for letter in text.chars() {
             let id = glyph(face, letter);
             match before {
-                Some(before) => pen[0] += kerning(face, before, id) * scale,
+                Some(GlyphId(before)) => {
+                    pen[0] += f64::from(*pairs.get(&[before, id.0]).unwrap_or(&0)) * scale;
+                }
                 // The first letter itself begins at the origin (a fact of the language).
                 None => {
                     let left = face.glyph_bounding_box(id).map_or(0, |bounds| bounds.x_min);
                     pen[0] -= f64::from(left) * scale;
                 }
             }
-            let mut outlines = Outlines {
-                scale,
-                done: Vec::new(),
-                current: Vec::new(),
-                start: [0.0; 2],
-                at: [0.0; 2],
-            };
+            let mut outlines =
+                Outlines { scale, done: Vec::new(), current: Vec::new(), start: [0.0; 2], at: [0.0; 2] };
             if face.outline_glyph(id, &mut outlines).is_some() && !outlines.done.is_empty() {
                 let points: usize = outlines.done.iter().map(Vec::len).sum();
                 self.check_memory(points * 16, place)?;

@@ -236,9 +236,8 @@ impl Parser<'_> {
             self.expect(Mark::BraceClose)?;
             return Ok(known);
         }
-        let entries = self.map_entries(is_mean, |r| {
-            r.nested(|r| r.normal_items(&Normal::default(), Mark::SquareClose))
-        })?;
+        let entries = self
+            .map_entries(is_mean, |r| r.nested(|r| r.normal_items(&Normal::default(), Mark::SquareClose)))?;
         self.end_of_map(entries.is_empty())?;
         let depth = 1 + entries.iter().map(|(_, normal)| normal.depth()).max().unwrap_or(0);
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))

@@ -45,11 +45,7 @@ impl PatternKind {
 
     /// Whether the pattern uses turbulence in its own way.
     pub(crate) fn stirs_itself(&self) -> bool {
-        match self {
-            Self::Written(word, _) => matches!(word, Keyword::Marble | Keyword::Wood),
-            Self::Ramp(ramp, _) => matches!(**ramp, durer_scene::Ramp::Spiral { .. }),
-            _ => false,
-        }
+        matches!(self, Self::Written(Keyword::Marble | Keyword::Wood, _))
     }
 }
 

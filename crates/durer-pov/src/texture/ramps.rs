@@ -25,7 +25,7 @@ impl Parser<'_> {
         let ramp = match word {
             Keyword::Spiral1 | Keyword::Spiral2 => {
                 self.next()?;
-                Ramp::Spiral { arms: self.float()?, double: word == Keyword::Spiral2, turbulence: None }
+                Ramp::Spiral { arms: self.float()?, double: word == Keyword::Spiral2, shift: 0.0 }
             }
             Keyword::Quilted => {
                 self.next()?;
@@ -62,9 +62,10 @@ impl Parser<'_> {
     /// Reads `function { ... }` as a pattern.
     fn function_kind(&mut self, place: Place) -> Result<PatternKind> {
         match self.function_block()? {
-            Value::Function(called) if called.formula.inputs() <= 3 => {
-                Ok(PatternKind::Ramp(Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))), place))
-            }
+            Value::Function(called) if called.formula.inputs() <= 3 => Ok(PatternKind::Ramp(
+                Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))),
+                place,
+            )),
             _ => Err(Error::invalid(place, "the function of a pattern gives one number for x, y and z")),
         }
     }

@@ -23,6 +23,9 @@ pub(super) struct Lamps<'w> {
     unblocked: Vec<(Rgb8, Point3<F8>)>,
 }
 
+/// The views of a layer with perturbed normals, and of the unperturbed surface.
+type Bent<'a> = (&'a [View], &'a [View]);
+
 /// How a light falls on eight points.
 #[derive(Clone, Copy)]
 struct Falling {
@@ -204,7 +207,7 @@ impl<'w> Lamps<'w> {
         &mut self,
         isa: Isa,
         finish: &Finish,
-        (lit, bent): (&[Lit], Option<(&[View], &[View])>),
+        (lit, bent): (&[Lit], Option<Bent<'_>>),
         spots: &[Spot],
     ) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));

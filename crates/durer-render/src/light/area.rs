@@ -147,7 +147,7 @@ mod tests {
     fn squares_become_circles() {
         for (u, v) in [(0.5, 0.5), (-0.5, 0.1), (0.2, -0.5), (0.5, 0.0)] {
             let (x, y) = on_disc(u, v);
-            assert!((x.hypot(y) - 0.5).abs() < 1e-12);
+            assert!(((x * x + y * y).sqrt() - 0.5).abs() < 1e-12);
             assert!(x * u >= 0.0 && y * v >= 0.0);
         }
     }

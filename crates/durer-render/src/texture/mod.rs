@@ -493,8 +493,8 @@ mod tests {
         let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
         let shown = blend.at(place.inside(p)).unwrap();
-        assert_eq!([0, 1, 2].map(|i| shown.part(i)), [0.75, 0.25, 0.0]);
-        assert_eq!((Shown::One(1).part(0), Shown::One(1).part(1)), (0.0, 1.0));
+        assert_eq!([0, 1, 2].map(|i| blend.part(shown, i)), [0.75, 0.25, 0.0]);
+        assert_eq!((blend.part(Shown::One(1), 0), blend.part(Shown::One(1), 1)), (0.0, 1.0));
         assert_eq!(paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL), Rgb8::WHITE);
     }
 }

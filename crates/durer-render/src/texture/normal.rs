@@ -114,9 +114,8 @@ impl RenderNormal {
                 Some(Shown::Two(i, k)) => {
                     blend.entry(i - 1).at(p, own) * (1.0 - k) + blend.entry(i).at(p, own) * k
                 }
-                Some(Shown::Each) => (0..blend.len()).fold(Vec3::ZERO, |sum, i| {
-                    sum + blend.entry(i).at(p, own) * blend.part(Shown::Each, i)
-                }),
+                Some(Shown::Each) => (0..blend.len())
+                    .fold(Vec3::ZERO, |sum, i| sum + blend.entry(i).at(p, own) * blend.part(Shown::Each, i)),
                 None => own,
             },
         };

@@ -33,9 +33,7 @@ mod tests {
     #[test]
     fn two_rows_have_known_kinds() {
         let row = |z: f64| {
-            core::array::from_fn::<_, 9, _>(|k| {
-                kind(Point3::new((k as f64 - 4.0) * 0.5, 7.0, z * HEIGHT))
-            })
+            core::array::from_fn::<_, 9, _>(|k| kind(Point3::new((k as f64 - 4.0) * 0.5, 7.0, z * HEIGHT)))
         };
         assert_eq!(row(0.5), [3, 4, 5, 2, 1, 0, 3, 4, 5]);
         assert_eq!(row(1.5), [2, 1, 0, 3, 4, 5, 2, 1, 0]);

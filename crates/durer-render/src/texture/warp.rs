@@ -35,7 +35,9 @@ impl Warp {
     pub(crate) fn image(&self, p: Point3) -> Point3 {
         match self {
             Self::Placed(place) => place.inside(p),
-            Self::Stir(stir) => stir.moved(Vec3::<F8>::splat(p.to_vec()).to_point()).to_vec().lane(0).to_point(),
+            Self::Stir(stir) => {
+                stir.moved(Vec3::<F8>::splat(p.to_vec()).to_point()).to_vec().lane(0).to_point()
+            }
             Self::Repeat { axis, width, offset, flip } => repeated(p, (*axis, *width), *offset, *flip),
             Self::BlackHole(hole) => drawn(p, hole),
             Self::Wrapped(wrap) => unrolled(p, wrap),
@@ -156,9 +158,5 @@ fn along(flat: Vec3, orientation: Vec3) -> Point3 {
 /// distance `d` from the origin. This is the scene language's map, which is a rotation only for
 /// normals along an axis; it was fitted to POV-Ray's values.
 fn flattened(p: Point3, n: Vec3, d: f64) -> Point3 {
-    Point3::new(
-        (n.y + n.z) * p.x + n.x * d,
-        (n.x + n.z) * p.y - n.y * d,
-        n.y * p.y - n.x * p.x + n.z * d,
-    )
+    Point3::new((n.y + n.z) * p.x + n.x * d, (n.x + n.z) * p.y - n.y * d, n.y * p.y - n.x * p.x + n.z * d)
 }

@@ -37,9 +37,9 @@ pub(super) fn radial(p: Point3) -> f64 {
 /// ```
 ///
 /// for `n` arms at the distance `r` from the axis and the angle `theta` from the x axis.
-pub(super) fn spiral(p: Point3, arms: f64, double: bool, moved: f64) -> f64 {
+pub(super) fn spiral(p: Point3, arms: f64, double: bool, shift: f64) -> f64 {
     let r = (p.x * p.x + p.y * p.y).sqrt();
-    let one = p.z + r + moved + arms * (elementary::atan2(p.y, p.x) / TAU + 0.25);
+    let one = p.z + r + shift + arms * (elementary::atan2(p.y, p.x) / TAU + 0.25);
     if double { triangle(one) + triangle(r) } else { one }
 }
 

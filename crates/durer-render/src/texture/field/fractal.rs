@@ -44,10 +44,7 @@ fn next(map: FractalMap, z: Complex, c: Complex) -> Complex {
             let (cube, first) = (times(square, z), times(one, z));
             let second = times(two, z);
             let above = (cube.0 + 3.0 * first.0 + both.0, cube.1 + 3.0 * first.1 + both.1);
-            let below = (
-                3.0 * (square.0 + second.0) + both.0 + 1.0,
-                3.0 * (square.1 + second.1) + both.1,
-            );
+            let below = (3.0 * (square.0 + second.0) + both.0 + 1.0, 3.0 * (square.1 + second.1) + both.1);
             let root = over(above, below);
             times(root, root)
         }

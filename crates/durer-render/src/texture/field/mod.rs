@@ -35,7 +35,7 @@ pub(crate) enum Field {
     Radial,
     Marble(Option<Stir>),
     Wood(Option<Stir>),
-    Spiral { arms: f64, double: bool, stir: Option<Stir> },
+    Spiral { arms: f64, double: bool, shift: f64 },
     Quilted(f64, f64),
     Noise(Grain),
     Agate(f64, Stir),
@@ -61,9 +61,7 @@ impl Field {
             Ramp::Radial => Self::Radial,
             Ramp::Marble(turbulence) => Self::Marble(stir(turbulence)),
             Ramp::Wood(turbulence) => Self::Wood(stir(turbulence)),
-            Ramp::Spiral { arms, double, turbulence } => {
-                Self::Spiral { arms: *arms, double: *double, stir: stir(turbulence) }
-            }
+            &Ramp::Spiral { arms, double, shift } => Self::Spiral { arms, double, shift },
             &Ramp::Quilted(bottom, top) => Self::Quilted(bottom, top),
             Ramp::Noise(grain) => match &grain.kind {
                 durer_scene::GrainKind::Agate(amount, turbulence) => {
@@ -98,6 +96,7 @@ impl Field {
             Self::Leopard => formulas::leopard(p),
             Self::Radial => formulas::radial(p),
             &Self::Quilted(bottom, top) => formulas::quilted(p, bottom, top),
+            &Self::Spiral { arms, double, shift } => formulas::spiral(p, arms, double, shift),
             Self::Cells => cell_number(p),
             Self::Ripples(centres) => centres.value(p),
             Self::Crackle(points) => points.value(p),
@@ -129,10 +128,6 @@ impl Field {
             Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
             Self::Marble(stir) => noise::marble(stir.as_ref(), p),
             Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),
-            Self::Spiral { arms, double, stir } => {
-                let moved = stir.as_ref().map_or(F8::ZERO, |stir| stir.scalar(p) * stir.amount.x);
-                by_lane(p, live, |i, p| formulas::spiral(p, *arms, *double, moved.0[i]))
-            }
             Self::Formula(program) => program.values(&[p.x, p.y, p.z]),
             Self::Pigment(pigment) => {
                 let colours = pigment.colours(p, live);

@@ -112,7 +112,7 @@ impl Stir {
             let mut p = p.to_vec() * F8::splat(scale);
             if let Some(i) = axis.checked_sub(1) {
                 let [x, y, z] = ELSEWHERE[i];
-                p = p + Vec3::<F8>::splat(Vec3::new(x, y, z));
+                p += Vec3::<F8>::splat(Vec3::new(x, y, z));
             }
             sum += plain(p) * weight;
         }

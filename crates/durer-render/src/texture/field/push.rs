@@ -52,7 +52,7 @@ impl Pusher {
                 let (mut sum, mut scale) = (Vec3::ZERO, 1.0);
                 for _ in 0..OCTAVES {
                     let v = noise_vector((p.to_vec() * scale).to_point());
-                    sum = sum + Vec3::new(v.x.abs(), v.y.abs(), v.z.abs()) * (1.18 / scale);
+                    sum += Vec3::new(v.x.abs(), v.y.abs(), v.z.abs()) * (1.18 / scale);
                     scale *= 2.0;
                 }
                 sum
@@ -63,9 +63,7 @@ impl Pusher {
                 let v = Vec3::new(half(p.x), half(p.y), half(p.z));
                 v * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top)
             }
-            Self::Facets(size, points) => {
-                points.vector((p.to_vec() * (1.0 / size)).to_point()) * FACET
-            }
+            Self::Facets(size, points) => points.vector((p.to_vec() * (1.0 / size)).to_point()) * FACET,
         }
     }
 }

@@ -53,7 +53,7 @@ impl Centres {
             let away = p - centre.at;
             let turns = length(away) * centre.frequency + self.phase;
             let slope = elementary::sin(TAU * (turns - floor(turns))) * centre.slope;
-            sum = sum + unit(away) * slope;
+            sum += unit(away) * slope;
         }
         sum
     }
