@@ -1,4 +1,10 @@
-// Patterns of noise, one on each square of a board.
+// Patterns of noise
+//
+// Equation: colour = map(noise(p)),  noise(p) = Σ interpolated values at the corners of the unit cell around p
+//
+// From below: bozo, granite, agate, wrinkles; dents, crackle, cells, ripples; waves, marble and wood stirred by turbulence, a stirred spiral.
+// K. Perlin, "An image synthesizer", 1985; S. Worley, "A cellular texture basis function", 1996.
+
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { orthographic location <2, 1.5, -10> direction z right 4*x up 3*y }
