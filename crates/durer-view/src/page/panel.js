@@ -56,7 +56,7 @@ function headline({ hit, tree, pixel }) {
 }
 
 // The type's name as words: "AxisBox" is "axis box".
-const surface = hit => (hit.surface ?? "surface").replace(/([a-z])([A-Z])/g, "$1 $2").toLowerCase();
+const surface = hit => hit.surface ?? "surface";
 
 function source({ line, column, length, first, lines }) {
   const code = make("pre", { class: "code" });
