@@ -455,10 +455,10 @@ fn the_story_names_what_happened() {
     assert_eq!(story.closest, world.closest(&ray));
     let text = story.to_string();
     for words in [
-        "Plane",
+        "plane",
         "tested first",
         "instance 1: entered",
-        "Sphere (object 1",
+        "sphere (object 1",
         "the closest so far",
         "closest: object 1",
     ] {

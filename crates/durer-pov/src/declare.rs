@@ -202,7 +202,11 @@ impl Parser<'_> {
         match self.understood_block() {
             Err(fault) if fault.kind == ErrorKind::Unsupported => {
                 self.skip_block(braces, &fault)?;
-                Ok(Value::Unsupported(Rc::new(Unsupported { text: fault.text, number: called })))
+                Ok(Value::Unsupported(Rc::new(Unsupported {
+                    text: fault.text,
+                    place: fault.place.filter(|_| !called),
+                    number: called,
+                })))
             }
             result => result,
         }

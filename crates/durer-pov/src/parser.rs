@@ -539,7 +539,10 @@ impl<'a> Parser<'a> {
     pub(crate) fn unexpected(&self, lexeme: &Lexeme, wanted: &str) -> Box<Error> {
         let found = match &lexeme.item {
             Item::Value(Value::Unsupported(what)) => {
-                return Error::at(lexeme.place, crate::ErrorKind::Unsupported, what.text.clone());
+                let place = what.place.unwrap_or(lexeme.place);
+                let mut error = Error::at(place, crate::ErrorKind::Unsupported, what.text.clone());
+                error.route.push(("a value used".to_owned(), lexeme.place));
+                return error;
             }
             Item::Unknown(name) => {
                 let text = crate::diagnostics::shortened(self.names.text(*name));

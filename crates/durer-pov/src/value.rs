@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use crate::diagnostics::Place;
 use crate::limits::Charge;
 use crate::macros::Macro;
 use crate::transform::Matrix;
@@ -150,6 +151,8 @@ impl Array {
 pub(crate) struct Unsupported {
     /// The text of the message.
     pub(crate) text: String,
+    /// Where the cause stands. For a number it is the place of its use that counts.
+    pub(crate) place: Option<Place>,
     /// Whether it stands for a number, or for a function that gives one: then a semicolon ends the
     /// statement.
     pub(crate) number: bool,

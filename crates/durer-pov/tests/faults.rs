@@ -90,6 +90,8 @@ fn what_cannot_be_done_in_an_included_texture_is_named_there() {
     folder.write("scene.pov", "#include \"stones.inc\"\nplane { y, 0 }\nsphere { 0, 1 texture { T } }");
     let said = folder.read("scene.pov").unwrap_err().to_string();
     assert!(said.contains("stones.inc:2:2: not supported yet: tiling"), "{said}");
+    let (_, used) = said.split_once("= in a value used at ").unwrap();
+    assert!(used.trim_end().ends_with("scene.pov:3:25"), "{said}");
 }
 
 #[test]

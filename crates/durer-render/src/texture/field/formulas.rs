@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn spirals_and_quilts_have_known_values() {
         let at = |x, y, z| Point3::new(x, y, z);
-        for (n, want) in [(1.0, 0.5), (2.0, 1.0), (3.0, 0.7)] {
+        for (n, want) in [(1.0, 1.5), (2.0, 1.0), (3.0, 0.7)] {
             assert!((spiral(at(0.3, 0.0, 0.0), n, true, 0.0) - want).abs() < 1e-9);
         }
         assert!((spiral(at(0.3, 0.0, 0.1), 1.0, true, 0.0) - 1.3).abs() < 1e-9);
