@@ -308,7 +308,7 @@ fn swept_solids_have_their_volumes() {
             format!("sweep {{ profile bezier_spline 8{} {path} size 2, 1, 0.5 }}", listed(&egg)),
             area * 1.5 * 1.75 / 3.0,
         ),
-        ("sponge", s("ifs { menger 2 }"), 8.0 * (20.0_f64 / 27.0).powi(2)),
+        ("sponge", s("ifs { menger 2 }"), 8.0 * (20.0 / 27.0) * (20.0 / 27.0)),
         ("tetrahedra", s("ifs { sierpinski 2 }"), 8.0 / 3.0 / 4.0),
     ]);
 }
