@@ -18,7 +18,7 @@
 //! interpolation, of which there are three, adds `21 u` to a value (`2 u` times a difference of at
 //! most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
 //! `180 u` along its own axis. With the effect of the coordinates' errors these are below
-//! [`VALUE_ROUNDINGS`] and [`SLOPE_ROUNDINGS`].
+//! `VALUE_ROUNDINGS` and `SLOPE_ROUNDINGS`.
 
 mod bounds;
 #[cfg(test)]

@@ -76,7 +76,7 @@ pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
 
 /// A solid with quadric faces: the methods that its author writes. Everything else follows.
 pub trait QuadricFaces: Send + Sync {
-    /// See [`Surface::name`].
+    /// See [`Surface::name`](crate::Surface::name).
     fn name(&self) -> &'static str {
         "quadric"
     }
