@@ -533,15 +533,24 @@ class Lathe(Object):
         self._set(_native.lathe(*arguments), arguments)
 
 
-def _net(points: npt.ArrayLike) -> tuple[tuple[tuple[float, ...], ...], tuple[int, int]]:
-    """A net of points (rows, columns, 3), or 4 with weights, as a list with weights; and its columns and rows."""
+_Net = tuple[tuple[tuple[float, ...], ...], ...]
+
+
+def _net(points: npt.ArrayLike) -> _Net:
+    """The rows of a net of points (rows, columns, 3), or 4 with weights, all with weights."""
     net = real_array(points, "points")
     if net.ndim != 3 or net.shape[2] not in (3, 4):
         raise ValueError(f"points: shape (rows, columns, 3) or (rows, columns, 4) is needed, got {net.shape}")
     rows, columns = net.shape[:2]
     if net.shape[2] == 3:
         net = np.concatenate([net, np.ones((rows, columns, 1))], axis=2)
-    return tuple(tuple(point) for point in net.reshape(-1, 4).tolist()), (columns, rows)
+    return tuple(tuple(tuple(point) for point in row) for row in net.tolist())
+
+
+def _flat(net: _Net) -> tuple[tuple[tuple[float, ...], ...], tuple[int, int]]:
+    """The points of a net row by row, and its columns and rows."""
+    columns = len(net[0]) if net else 0
+    return tuple(point for row in net for point in row), (columns, len(net))
 
 
 @final
@@ -555,12 +564,11 @@ class BezierPatch(Object):
     __slots__ = ()
 
     def __init__(self, points: npt.ArrayLike, uv: npt.ArrayLike = ((0, 0), (1, 0), (1, 1), (0, 1))) -> None:
-        net, size = _net(points)
+        net = _net(points)
         corners = _rows(uv, 2, "uv")
         if len(corners) != 4:
             raise ValueError(f"uv: 4 rows are needed, got {len(corners)}")
-        arguments = (net, size, corners)
-        self._set(_native.bezier_patch(*arguments), arguments)
+        self._set(_native.bezier_patch(*_flat(net), corners), (net, corners))
 
 
 @final
@@ -580,11 +588,13 @@ class Nurbs(Object):
         knots: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
         periodic: tuple[bool, bool] = (False, False),
     ) -> None:
-        net, size = _net(points)
+        net = _net(points)
         lists = ((), ()) if knots is None else knots
         u, v = (tuple(real_array(values, "knots").ravel().tolist()) for values in lists)
-        arguments = (net, size, (int(degree[0]), int(degree[1])), (u, v), (bool(periodic[0]), bool(periodic[1])))
-        self._set(_native.nurbs(*arguments), arguments)
+        degrees, both = (int(degree[0]), int(degree[1])), (u, v)
+        closed = (bool(periodic[0]), bool(periodic[1]))
+        native = _native.nurbs(*_flat(net), degrees, both, closed)
+        self._set(native, (net, degrees, both, closed))
 
 
 @final
