@@ -167,11 +167,11 @@ def wrong_values(x):
         "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }": "", "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, -1> } }": "",
         "mesh2 { vertex_vectors { -3, 0, x, y } face_indices { 1, <0, 1, 2> } }": "", "mesh2 { vertex_vectors { 1e9, 0, x, y } face_indices { 1, <0, 1, 2> } }": "",
         "polygon { 2, 0, x }": "", "polygon { 1e18, 0, x, y }": "", "polygon { -4, 0, x, y, 0 }": "", "triangle { 0, x }": "", "sphere { 0 }": "", "sphere { }": "", "sphere": "",
-        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { disc { 0, y, 1 } } }": "disc", "text { 1 }": "not supported yet: text",
+        "mesh { }": None, "union { }": None, "sphere { 0, 1 clipped_by { disc { 0, y, 1 } } }": "disc", "text { 1 }": "expected ttf or internal, found a number",
         "blob { threshold 1 }": "no components", "blob { threshold -1 sphere { 0, 1, 1 } }": "greater than 0", "blob { sphere { 0, 1, 2 texture { gradient x } } }": "has no textures", "blob { sphere { 0, 1, 2 interior { ior 1.5 } } }": "a transform or the texture of the component",
         "deform { blob { sphere { 0, 1, 2 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }": "whose components have textures",
         "julia_fractal { <0, 0, 0, 0> slice x, 0 }": "fourth component", "julia_fractal { <0, 0, 0, 0> max_iteration -1 }": "0 to 1000", "julia_fractal { 0 hypercomplex exp }": "not supported yet: exp", "superellipsoid { <0, 1> }": "between", "superellipsoid { <1, -1> }": "between", "superellipsoid { }": "", "blob { cylinder { 0, 0, 1, 1 } }": "same point", "isosurface { function { f_nowhere(x) } }": "f_nowhere",
-        "fog { distance 10 }": "not supported yet: fog", "sphere { 0, 1 pigment { marble } }": "not supported yet: marble", "media { }": "not supported yet: media",
+        "rainbow { distance 10 }": "not supported yet: rainbow", "sphere { 0, 1 pigment { tiling 1 } }": "not supported yet: tiling", "sphere { 0, 1 pigment { image_map { png \"x.png\" } } }": "not supported yet: image_map",
         "#declare A = array[3] { 1, 2 }; sphere { 0, A[7] }": "", "#declare A = array[1e12]": "", "#declare A = array[0]": "", "sphere { Nothing, 1 }": "Nothing",
         "sphere { 0, 1 } }": "", "} sphere { 0, 1 }": "", "sphere { 0, 1": "", "#end": "", "#else": "", "#if (1) sphere { 0, 1 }": "", "#macro M() sphere { 0, 1 }": "",
         "/* never closed": "", '"never closed': "", "#declare A = \"x": "", "#nonsense": "", "#declare = 3;": "", "#declare A 3;": "", "#include": "", '#include ""': "",
@@ -201,7 +201,7 @@ def wrong_values(x):
     x.scene("no camera", "sphere { 0, 1 }", code=0, says=["warning", "camera"])
     places = {
         "sphere { 0, 1 }\n  bicubic_patch { 1 }\n": (2, 3), "sphere { 0, 1\n}\n\tsphere { 0, 1/0 }\n": None, "#declare A = 3;\nsphere { A, B }\n": (2, 13),
-        "\n\n   sphere { 0, 1 pigment { marble } }": (3, 28), "/* a\n b */ bicubic_patch { 1 }": (2, 7), "#macro M()\n  bicubic_patch { 1 }\n#end\nM()\n": (2, 3),
+        "\n\n   sphere { 0, 1 pigment { tiling 1 } }": (3, 28), "/* a\n b */ bicubic_patch { 1 }": (2, 7), "#macro M()\n  bicubic_patch { 1 }\n#end\nM()\n": (2, 3),
         "#if (1)\n#while (0)\n#end\n": None, "sphere { 0, 1 }\r\n\r\nbicubic_patch { 1 }\r\n": (3, 1), "// \xe4\xf6\xfc\nsphere { 0, 1 } /* \xe9 */ bicubic_patch { 1 }": (2, 25),
     }
     for words, at in places.items():
