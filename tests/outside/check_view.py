@@ -444,13 +444,16 @@ def measure(durer, gallery, count):
     """The times to the first picture and to the reaction to a drag, in milliseconds."""
     scenes = sorted(gallery.glob("*.pov"))[:: 1 if count is None else max(1, len(list(gallery.glob("*.pov"))) // count)]
     driver = browser(1280, 900)
-    ready, opened, drags, eighths = [], [], [], []
+    ready, first, opened, drags, eighths = [], [], [], [], []
     try:
         for path in scenes:
             with Server(durer, path, "--width", "640", "--height", "480") as server:
                 ready.append(server.ready)
-                Page(driver, server).finished(180)
-                # Opened once more, so that the time does not contain what a browser does at the first sight of an address.
+                # The picture begins to form when the first page opens.
+                page = Page(driver, server)
+                first.append(page.wait("durerTimings.picture", "the first picture", 120))
+                page.finished(180)
+                # Opened once more, with the picture finished.
                 page = Page(driver, server)
                 opened.append(page.wait("durerTimings.picture", "the first picture", 120))
                 page.finished()
@@ -467,18 +470,19 @@ def measure(durer, gallery, count):
                 drags.append(statistics.median(reaction))
                 passed = times["pass"].get(f"{last}/2") or times["pass"][f"{last}/3"]
                 eighths.append(passed - times["asked"][str(last)])
-                print(f"  {path.stem:24} program {ready[-1]:6.0f}   page {opened[-1]:6.0f}   drag {drags[-1]:6.0f}   an eighth {eighths[-1]:6.0f}")
+                print(f"  {path.stem:24} program {ready[-1]:6.0f}   first {first[-1]:6.0f}   again {opened[-1]:6.0f}   drag {drags[-1]:6.0f}   an eighth {eighths[-1]:6.0f}")
     finally:
         driver.quit()
     print(f"times at 640x480 on {os.cpu_count()} processors, {len(scenes)} scenes, medians in ms:")
     for what, values in [
         ("from the start of the program to its address", ready),
-        ("first picture, from opening the page", opened),
+        ("first picture, from opening the first page", first),
+        ("finished picture, from opening a second page", opened),
         ("reaction to a drag: the whole picture, coarsely", drags),
         ("an eighth of the pixels after a drag", eighths),
     ]:
         print(f"  {what:48} {statistics.median(values):6.0f}   (slowest {max(values):.0f})")
-    return statistics.median(opened), statistics.median(drags)
+    return statistics.median(first), statistics.median(drags)
 
 
 def main():

@@ -42,9 +42,9 @@ enum Verdict {
     Refused(String),
     /// POV-Ray does not render it.
     NoScene,
-    /// The pixels that differ also change in POV-Ray's own picture, when the whole scene is moved
-    /// by a thousandth or when it renders nothing but the pixel. Then they depend on rounding, or
-    /// on the object that POV-Ray remembers from earlier shadow rays and tests twice.
+    /// The pixels that differ also change in POV-Ray's own picture when the whole scene is moved by
+    /// a thousandth, or agree when it renders nothing but the pixel. Then they depend on rounding,
+    /// or on the object that POV-Ray remembers from earlier shadow rays and tests twice.
     Noise,
 }
 
@@ -97,8 +97,8 @@ impl Bench<'_> {
     }
 
     /// An estimate of the fraction of pixels on which the pictures (ours, POV-Ray's) differ though
-    /// POV-Ray's has the same colour if the whole scene is moved by a thousandth, and if it renders
-    /// nothing but the pixel.
+    /// POV-Ray's has the same colour if the whole scene is moved by a thousandth, and on which ours
+    /// also differs from POV-Ray's when that renders nothing but the pixel.
     fn reproducible(&self, shown: &Scene, name: &str, (ours, theirs): &(Picture, Picture)) -> Outcome<f64> {
         let file = |ending: &str| self.folder.join(format!("{name}{ending}"));
         let (scene, moved, picture) = (file(".pov"), file("-moved.pov"), file("-again.png"));
@@ -115,7 +115,7 @@ impl Bench<'_> {
         for &pixel in &sample {
             let place = (pixel as u32 % SHOT.width, pixel as u32 / SHOT.width);
             self.povray.render_pixel(&scene, &picture, SHOT, place)?;
-            still += usize::from(!differs_at(&Picture::read(&picture)?, theirs, pixel));
+            still += usize::from(differs_at(&Picture::read(&picture)?, ours, pixel));
         }
         remove(&picture);
         let share = still as f64 / sample.len().max(1) as f64;
