@@ -37,6 +37,16 @@ impl Pulse {
 #[derive(Debug, Default)]
 pub(crate) struct Beats(pub(crate) AtomicU64);
 
+/// The state and the coarse picture so far, for the page to show before its stream has begun.
+pub(crate) fn so_far(session: &Session) -> serde_json::Value {
+    let shared = session.shared();
+    let mut tiles = Vec::new();
+    let generation = shared.canvas.preview(&mut tiles);
+    let state = shared.state(&session.file.name(), session.file.size());
+    drop(shared);
+    serde_json::json!({ "state": state, "tiles": format!("{generation} {}", STANDARD.encode(tiles)) })
+}
+
 /// The body of the stream.
 pub(crate) struct Events {
     session: Arc<Session>,

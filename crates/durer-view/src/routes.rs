@@ -1,10 +1,11 @@
 //! The answers to requests.
 
 use crate::channel::Channel;
-use crate::events::{Events, Pulse};
+use crate::events::{Events, Pulse, so_far};
 use crate::explain;
 use crate::rig::Move;
 use crate::server::Server;
+use crate::session::Session;
 use bytes::Bytes;
 use durer_render::AntiAliasing;
 use durer_render::film::Bits;
@@ -31,15 +32,21 @@ const PANEL: &str = include_str!("page/panel.js");
 const POLICY: &str =
     "default-src 'none'; connect-src 'self'; img-src data: blob:; frame-ancestors 'none'; base-uri 'none'";
 
-/// The page with its style and scripts in one answer, so that it is shown sooner. The browser runs
-/// what bears the number that this answer alone has.
-fn page() -> Answer {
+/// The page with its style, its scripts and the picture so far in one answer, so that it is shown
+/// sooner. The browser runs what bears the number that this answer alone has.
+fn page(session: &Session) -> Answer {
     let Ok(nonce) = crate::server::secret() else {
         return plain(StatusCode::INTERNAL_SERVER_ERROR, "no random numbers are at hand");
     };
     let style = format!("<style nonce=\"{nonce}\">\n{STYLE}</style>");
     let script = |text: &str| format!("<script nonce=\"{nonce}\">\n{text}</script>");
+    // As data, "<" must not end the element.
+    let so_far = so_far(session).to_string().replace('<', "\\u003c");
     let page = PAGE
+        .replace(
+            "<script src=\"so_far.json\"></script>",
+            &format!("<script id=\"so-far\" type=\"application/json\">{so_far}</script>"),
+        )
         .replace("<link rel=\"stylesheet\" href=\"style.css\">", &style)
         .replace("<script src=\"panel.js\"></script>", &script(PANEL))
         .replace("<script src=\"app.js\"></script>", &script(SCRIPT));
@@ -106,7 +113,7 @@ async fn route(server: &Arc<Server>, pulse: &Arc<Pulse>, path: &str, request: Re
             }
             answer
         }
-        (&Method::GET, "") => page(),
+        (&Method::GET, "") => page(&server.session),
         (&Method::GET, "events") => match Events::join(&server.session, pulse, &server.beats) {
             Some(events) => typed("text/event-stream", events.boxed()),
             None => plain(StatusCode::SERVICE_UNAVAILABLE, "the scene is shown in too many windows already"),

@@ -35,9 +35,15 @@ pub(crate) fn excerpt(stage: &Stage, place: Option<Place>) -> Value {
     })
 }
 
-/// The line of a place, counted from 1.
-pub(crate) fn line(stage: &Stage, place: Option<Place>) -> Option<usize> {
-    Some(stage.origin.text.as_ref()?.locate(place?)?.line)
+/// The line of a place, counted from 1; with the file's name if that is an included one:
+/// `shapes.inc:12`.
+pub(crate) fn line(stage: &Stage, place: Option<Place>) -> Option<String> {
+    let at = stage.origin.text.as_ref()?.locate(place?)?;
+    if at.path == stage.origin.path {
+        return Some(at.line.to_string());
+    }
+    let name = at.path.file_name().unwrap_or_default().to_string_lossy();
+    Some(format!("{name}:{}", at.line))
 }
 
 /// The word at a place.
@@ -114,7 +120,23 @@ mod tests {
             shown["lines"][(5 - shown["first"].as_u64().unwrap()) as usize],
             "  box { -1, 1 translate 5*x }"
         );
-        assert_eq!((word(&stage, place).as_deref(), line(&stage, place)), (Some("box"), Some(5)));
+        assert_eq!((word(&stage, place).as_deref(), line(&stage, place)), (Some("box"), Some("5".into())));
         assert_eq!(excerpt(&stage, None), Value::Null);
+    }
+
+    #[test]
+    fn a_line_of_an_included_file_has_its_name() {
+        let folder = std::env::temp_dir().join(format!("durer-view-lines-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("ball.inc"), "// A ball.\nsphere { 0, 1 }\n").unwrap();
+        let text =
+            "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#include \"ball.inc\"\nbox { 2, 3 }\n";
+        let path = folder.join("scene.pov");
+        std::fs::write(&path, text).unwrap();
+        let stage = crate::SceneFile::new(&path, durer_pov::ReadOptions::default()).load().unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        let lowered = stage.queries().unwrap();
+        let lines = [0, 1].map(|object| line(&stage, place(&stage.scene, lowered, object, 0)).unwrap());
+        assert_eq!(lines, ["ball.inc:2", "4"]);
     }
 }

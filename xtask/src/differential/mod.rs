@@ -1,6 +1,7 @@
 //! `cargo xtask differential`: renders random small scenes with durer and with POV-Ray, and reduces
 //! the scenes whose pictures differ.
 
+mod known;
 mod random;
 mod reduce;
 mod scene;
@@ -46,6 +47,8 @@ enum Verdict {
     /// a thousandth, or agree when it renders nothing but the pixel. Then they depend on rounding,
     /// or on the object that POV-Ray remembers from earlier shadow rays and tests twice.
     Noise,
+    /// They agree without what this entry of docs/differences.md describes.
+    Known(&'static str),
 }
 
 impl Verdict {
@@ -94,6 +97,26 @@ impl Bench<'_> {
         }
         drawn.write(&file("-difference.png"))?;
         Ok(Verdict::Differs(1.0 - difference.agreeing))
+    }
+
+    /// The entry of docs/differences.md that explains why the pictures of a scene differ.
+    fn known(&self, shown: &Scene, name: &str) -> Outcome<Option<&'static str>> {
+        for known in &known::ALL {
+            let Some(without) = (known.without)(shown) else { continue };
+            let verdict = self.judge(&without, &format!("{name}-without"))?;
+            self.remove_all(&format!("{name}-without"));
+            if matches!(verdict, Verdict::Agrees | Verdict::Noise) {
+                return Ok(Some(known.entry));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Removes the scene and the pictures of this name.
+    fn remove_all(&self, name: &str) {
+        for ending in [".pov", "-durer.png", "-povray.png", "-difference.png"] {
+            remove(&self.folder.join(format!("{name}{ending}")));
+        }
     }
 
     /// An estimate of the fraction of pixels on which the pictures (ours, POV-Ray's) differ though
@@ -157,7 +180,8 @@ pub(crate) fn run(words: &[String]) -> Outcome {
     let bench = Bench { durer: &durer, povray: &povray, folder: folder.clone() };
     let next = AtomicU64::new(request.first);
     let (last, found) = (request.first + request.scenes, Mutex::new(Vec::new()));
-    let (failed, skipped, noisy) = (Mutex::new(None), AtomicU64::new(0), AtomicU64::new(0));
+    let failed = Mutex::new(None);
+    let [skipped, noisy, known] = [const { AtomicU64::new(0) }; 3];
     let work = || {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
@@ -170,6 +194,10 @@ pub(crate) fn run(words: &[String]) -> Outcome {
                 }
                 Ok(Verdict::Noise) => {
                     noisy.fetch_add(1, Ordering::Relaxed);
+                }
+                Ok(Verdict::Known(entry)) => {
+                    println!("scene {number}: {entry}");
+                    known.fetch_add(1, Ordering::Relaxed);
                 }
                 Ok(verdict) if verdict.is_fault() => {
                     println!("scene {number}: {}", said(&verdict));
@@ -195,10 +223,11 @@ pub(crate) fn run(words: &[String]) -> Outcome {
     found.sort_unstable();
     let skipped = skipped.into_inner();
     println!(
-        "{} scenes of seed {}: {} differ; {} are noise in POV-Ray{}",
+        "{} scenes of seed {}: {} differ; {} more differ as docs/differences.md says; {} are noise in POV-Ray{}",
         request.scenes - skipped,
         request.seed,
         found.len(),
+        known.into_inner(),
         noisy.into_inner(),
         if skipped > 0 { format!("; {skipped} were no scenes for POV-Ray") } else { String::new() }
     );
@@ -209,15 +238,18 @@ pub(crate) fn run(words: &[String]) -> Outcome {
 fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
     let scene = scene::scene(request.seed, number);
     let name = format!("seed-{}-{number}", request.seed);
-    let verdict = bench.judge(&scene, &name)?;
+    let mut verdict = bench.judge(&scene, &name)?;
+    if let Verdict::Differs(_) = verdict
+        && let Some(entry) = bench.known(&scene, &name)?
+    {
+        verdict = Verdict::Known(entry);
+    }
     if verdict.is_fault() {
         if request.reduce {
             bench.reduced(scene, &verdict, &format!("{name}-small"))?;
         }
     } else {
-        for ending in [".pov", "-durer.png", "-povray.png"] {
-            remove(&bench.folder.join(format!("{name}{ending}")));
-        }
+        bench.remove_all(&name);
     }
     Ok(verdict)
 }

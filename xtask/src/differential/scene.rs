@@ -42,6 +42,12 @@ impl Node {
         let _ = writeln!(text, "{lead}{}", self.close);
     }
 
+    /// Calls a function with this node and every node in it.
+    pub(super) fn each(&mut self, call: &mut impl FnMut(&mut Self)) {
+        call(self);
+        self.parts.iter_mut().chain(&mut self.said).for_each(|node| node.each(call));
+    }
+
     /// The number of nodes in it.
     pub(super) fn size(&self) -> usize {
         1 + self.parts.iter().chain(&self.said).map(Self::size).sum::<usize>()

@@ -99,6 +99,7 @@ function paint(message) {
   const space = message.indexOf(" ");
   const generation = Number(message.slice(0, space));
   const text = atob(message.slice(space + 1));
+  if (text === "") return;
   const byte = i => text.charCodeAt(i);
   const out = new Uint32Array(image.data.buffer);
   const little = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1;
@@ -365,4 +366,8 @@ for (const ending of ["png", "exr"]) $(ending).addEventListener("click", async (
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 });
 
+// The picture so far has come with the page.
+const soFar = JSON.parse($("so-far").textContent);
+show(soFar.state);
+paint(soFar.tiles);
 follow();
