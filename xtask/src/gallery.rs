@@ -9,6 +9,9 @@ use std::fmt::Write as _;
 /// The picture on the README's first page. In the gallery it is also first, and larger.
 const MASTERPIECE: &str = "melencolia";
 
+/// The width of the pictures in the contact sheet at the head of the page.
+const THUMBNAIL: u32 = 150;
+
 /// Renders all scenes, or the named ones, and writes the page of all scenes.
 pub(crate) fn run(names: &[String]) -> Outcome {
     let folder = root().join("docs/gallery");
@@ -38,7 +41,13 @@ fn document(scenes: &[Scene]) -> String {
          [scenes](../scenes); each renders with `durer render scenes/NAME.pov`.\n\n",
     );
     for scene in scenes {
-        let _ = writeln!(text, "- [{}](#{})", scene.header.title, anchor(&scene.header.title));
+        let title = &scene.header.title;
+        let _ = writeln!(
+            text,
+            "<a href=\"#{}\"><img src=\"gallery/{}.png\" width=\"{THUMBNAIL}\" alt=\"{title}\" title=\"{title}\"></a>",
+            anchor(title),
+            scene.name
+        );
     }
     for scene in scenes {
         let (width, height) = size(scene);
