@@ -170,6 +170,29 @@ impl<T: Word, const K: usize> Curve<T, K> {
         out
     }
 
+    /// `|c - s d|² - r²` and its slope in `s`, without error; `high` are the terms that do not
+    /// depend on `s`.
+    #[inline(always)]
+    fn around<const M: usize>(
+        &self,
+        high: &[EFloat<T>; M],
+        d: &[EFloat<T>; 3],
+        s: f64,
+    ) -> ([EFloat<T>; M], f64) {
+        let (mut w, s) = ([EFloat::<T>::exact(0.0); 3], EFloat::<T>::exact(s));
+        for axis in 0..3 {
+            w[axis] = self.c[axis][0] - s * d[axis];
+        }
+        let mut p = *high;
+        p[0] = dot(&w, &w) - self.r[0] * self.r[0];
+        for k in 1..K {
+            let c = [self.c[0][k], self.c[1][k], self.c[2][k]];
+            p[k] = p[k] + (dot(&w, &c) - self.r[0] * self.r[k]).scale2(1);
+        }
+        let slope = -2.0 * dot(&w, d).value();
+        (p, slope)
+    }
+
     /// The sign of the distance from the origin to the union of the piece's balls: positive
     /// outside. `None` if that is not certain.
     #[inline(always)]
@@ -183,19 +206,23 @@ impl<T: Word, const K: usize> Curve<T, K> {
     }
 
     /// `c` and `r` at `x`, and `c'` and `r'`: rounded.
+    #[inline(always)]
     pub(super) fn place(&self, x: f64) -> ([f64; 3], f64, [f64; 3], f64) {
-        let axis = |c: &[EFloat<T>; K]| {
+        #[inline(always)]
+        fn axis<T: Word, const K: usize>(c: &[EFloat<T>; K], x: f64) -> (f64, f64, f64) {
             let mut v = [0.0; K];
             for (v, c) in v.iter_mut().zip(c) {
                 *v = c.value();
             }
             slopes(&v, x)
-        };
-        let [x, y, z, r] = [axis(&self.c[0]), axis(&self.c[1]), axis(&self.c[2]), axis(&self.r)];
+        }
+        let [cx, cy, cz] = &self.c;
+        let [x, y, z, r] = [axis(cx, x), axis(cy, x), axis(cz, x), axis(&self.r, x)];
         ([x.0, y.0, z.0], r.0, [x.1, y.1, z.1], r.1)
     }
 
     /// For the origin: the coefficients of `z` and `z²` in `|c|² - r²`, with `x = at + z`.
+    #[inline(always)]
     pub(super) fn turn<const M: usize>(&self, at: f64) -> (EFloat<T>, EFloat<T>) {
         let p = self.moved(at).square::<M>(0);
         (p[1], p[2])
@@ -378,6 +405,15 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         (disc >= 0.0).then(|| sign.mul_add(value(&self.b, x), disc.sqrt()))
     }
 
+    /// `x` and its reach, if that is greater than the best one's.
+    #[inline(always)]
+    fn better(&self, best: (f64, f64), x: f64, sign: f64) -> (f64, f64) {
+        match self.reach(x, sign) {
+            Some(found) if found > best.1 => (x, found),
+            _ => best,
+        }
+    }
+
     /// Whether `±(d·c) + √D` rises at `x`, and Newton's step to where it is greatest.
     #[inline(always)]
     fn climb(&self, x: f64, sign: f64) -> (bool, f64) {
@@ -405,25 +441,18 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         // The best one, and those before and after it.
         let sure = run.sure[0];
         let mut best = (sure, self.reach(sure, sign).unwrap_or(f64::NEG_INFINITY));
-        let mut look = |x: f64| {
-            if let Some(found) = self.reach(x, sign)
-                && found > best.1
-            {
-                best = (x, found);
-            }
-        };
-        look(run.sure[1]);
+        best = self.better(best, run.sure[1], sign);
         if run.first {
-            look(from);
+            best = self.better(best, from, sign);
         }
         if run.last {
-            look(to);
+            best = self.better(best, to, sign);
         }
         for i in 1..=count {
-            look(f64::from(i).mul_add(step, from));
+            best = self.better(best, f64::from(i).mul_add(step, from), sign);
         }
         if let Some(hint) = hint {
-            look(hint);
+            best = self.better(best, hint, sign);
         }
         let start = best.0;
         let (mut l, mut r) = ((start - step).max(from), (start + step).min(to));
@@ -478,26 +507,11 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
     fn end_near(&self, run: &Run, x: f64, sign: f64, widths: &Widths) -> Result<RunEnd, Option<f64>> {
         let here = self.curve.moved(x);
         let high = here.square::<M>(1);
-        // |c - s d|² - r² at s, in z = x' - x.
-        let around = |s: f64| {
-            let (mut w, s) = ([EFloat::<T>::exact(0.0); 3], EFloat::<T>::exact(s));
-            for axis in 0..3 {
-                w[axis] = here.c[axis][0] - s * self.line.d[axis];
-            }
-            let mut p = high;
-            p[0] = dot(&w, &w) - here.r[0] * here.r[0];
-            for k in 1..K {
-                let c = [here.c[0][k], here.c[1][k], here.c[2][k]];
-                p[k] = p[k] + (dot(&w, &c) - here.r[0] * here.r[k]).scale2(1);
-            }
-            let slope = -2.0 * dot(&w, &self.line.d).value();
-            (p, slope)
-        };
         let Some(reach) = self.reach(x, sign) else { return Err(None) };
         let mut s = sign * reach * self.line.inverse_d2;
         let mut off = 0.0;
         for _ in 0..3 {
-            let (p, slope) = around(s);
+            let (p, slope) = here.around(&high, &self.line.d, s);
             // The least value near here.
             let (p1, p2) = (p[1].value(), p[2].value());
             let dip = if x > -1.0 && x < 1.0 && p2 > 0.0 { p1 * p1 / (4.0 * p2) } else { 0.0 };
@@ -517,8 +531,9 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         let mut half = (widths.half * scale).max(if off.is_finite() { 1.5 * off } else { 0.0 });
         while half <= most {
             let (within, beyond) = (s - sign * half, s + sign * half);
-            let inside = around(within).0[0].sign() == Some(Ordering::Less);
-            let outside = match (inside, self.beyond(&around(beyond).0, run, x)) {
+            let inside = here.around(&high, &self.line.d, within).0[0].sign() == Some(Ordering::Less);
+            let there = here.around(&high, &self.line.d, beyond).0;
+            let outside = match (inside, self.beyond(&there, run, x)) {
                 (true, Positive::NotAt(z)) => return Err(Some((x + z).clamp(-1.0, 1.0))),
                 (true, Positive::Yes) => true,
                 _ => false,

@@ -26,6 +26,18 @@ pub(super) struct Span {
 }
 
 impl Span {
+    /// Whether it begins before the other one ends, if that is certain.
+    #[inline(always)]
+    fn begins_before(&self, other: &Self) -> Option<bool> {
+        if self.from.hi <= other.to.lo {
+            Some(true)
+        } else if self.from.lo > other.to.hi {
+            Some(false)
+        } else {
+            None
+        }
+    }
+
     /// The span from the first of two beginnings to the last of two ends.
     #[inline(always)]
     pub(super) fn with(&self, other: &Self) -> Self {
@@ -158,16 +170,7 @@ fn merge(spans: &mut Vec<Span>) -> Result<(), Doubt> {
         let (last, next) = (spans[kept], spans[i]);
         // They meet if each begins before the other ends. The first one may begin after the second
         // only by less than their brackets are wide.
-        let meets = |a: &Span, b: &Span| {
-            if a.from.hi <= b.to.lo {
-                Some(true)
-            } else if a.from.lo > b.to.hi {
-                Some(false)
-            } else {
-                None
-            }
-        };
-        match (meets(&next, &last), meets(&last, &next)) {
+        match (next.begins_before(&last), last.begins_before(&next)) {
             (Some(true), Some(true)) => spans[kept] = last.with(&next),
             (Some(false), Some(true)) => {
                 kept += 1;
@@ -192,9 +195,13 @@ fn unite_exactly<const K: usize, const M: usize>(
     spans: &mut Vec<Span>,
 ) -> bool {
     let wide = Line::wide(at);
+    // A closure in this one would not be compiled for the processor's instructions.
     let told = Isa::detect().run(
         #[inline(always)]
-        || wide.is_some_and(|line| unite(sweep, basis, &line, pieces, widths, spans).is_ok()),
+        || match wide {
+            Some(line) => unite(sweep, basis, &line, pieces, widths, spans).is_ok(),
+            None => false,
+        },
     );
     told || exact::unite(sweep, basis, at, pieces, widths, spans)
 }

@@ -18,7 +18,8 @@ use crate::planar::{self, AlongRay, Line as _, PlaneForm, PointLine, Probe, Thre
 use crate::point::least_step;
 use crate::{Flow, LocalPoint, LocalRay, RingRay, Root, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use core::ops::RangeInclusive;
+use core::ops::Range;
+use durer_math::rounding::{add_up, sub_down, sub_up};
 use durer_math::{Dyadic, Point3, Ring, Vec3};
 
 /// A piece of a wall.
@@ -120,6 +121,7 @@ impl<H: Heights> Sheet<H> {
     }
 
     /// The crossings with the walls.
+    #[inline(always)]
     pub(super) fn wall_roots(
         &self,
         ray: &LocalRay<'_>,
@@ -129,8 +131,7 @@ impl<H: Heights> Sheet<H> {
     ) {
         let mut first = self.heights().faces();
         for (axis, far, edges) in self.borders() {
-            let place = f64::from(u8::from(far));
-            for n in edges_near(line, (axis, place), edges) {
+            for n in self.edges_near(line, range, (axis, far), edges) {
                 let face = first + n;
                 if let Some(root) = self.wall_root(&self.piece(axis, far, n), face, ray, range) {
                     queue.push(root, line);
@@ -138,6 +139,26 @@ impl<H: Heights> Sheet<H> {
             }
             first += edges;
         }
+    }
+
+    /// The edges of a border below which a line may pass the wall, at a place in a range of `t`.
+    #[inline(always)]
+    fn edges_near(
+        &self,
+        line: &Line<'_>,
+        range: (f64, f64),
+        (axis, far): (usize, bool),
+        edges: u32,
+    ) -> Range<u32> {
+        let Some(place) = line.place(axis, f64::from(u8::from(far))) else { return 0..edges };
+        let (low, high) = line.across(&place, 2 - axis);
+        let is_over = line.is_above(&place, self.range()[1]);
+        if is_over || high < 0.0 || low > 1.0 || !line.may_reach(&place, range) {
+            return 0..0;
+        }
+        let of = |at: f64| ((at * f64::from(edges)).max(0.0) as u32).min(edges - 1);
+        // One more each way pays for roundings.
+        of(low).saturating_sub(1)..(of(high) + 2).min(edges)
     }
 
     fn wall_root(&self, wall: &Wall, face: u32, ray: &LocalRay<'_>, range: (f64, f64)) -> Option<Root> {
@@ -230,8 +251,45 @@ impl<H: Heights> Sheet<H> {
         point
     }
 
+    /// The side of the solid on which a point lies, where f64 tells: outside of the column, above or
+    /// below all heights of its cells.
+    fn column_side_in_doubles(&self, point: &LocalPoint<'_>) -> Option<Side> {
+        let (p, e) = (point.p, point.p_err);
+        let within = [strictly_within(p.x, e.x), strictly_within(p.z, e.z)];
+        if within.contains(&Some(false)) {
+            return Some(Side::Out);
+        }
+        let [low, high] = self.range();
+        // Rounded outward.
+        let (bottom, top) = (sub_down(p.y, e.y), add_up(p.y, e.y));
+        if bottom > high {
+            return Some(Side::Out);
+        }
+        if within != [Some(true); 2] {
+            return None;
+        }
+        if top < low {
+            return Some(Side::In);
+        }
+        let [columns, rows] = self.heights().cells();
+        let i = cell_around(sub_down(p.x, e.x), add_up(p.x, e.x), columns)?;
+        let j = cell_around(sub_down(p.z, e.z), add_up(p.z, e.z), rows)?;
+        let height = |a: u32, b: u32| self.heights().height(i + a, j + b);
+        let corners = [height(0, 0), height(1, 0), height(0, 1), height(1, 1)];
+        if corners.iter().all(|h| bottom > *h) {
+            Some(Side::Out)
+        } else if corners.iter().all(|h| top < *h) {
+            Some(Side::In)
+        } else {
+            None
+        }
+    }
+
     /// The side of the solid on which a point lies.
     pub(super) fn column_side(&self, point: &LocalPoint<'_>) -> Side {
+        if let Some(side) = self.column_side_in_doubles(point) {
+            return side;
+        }
         let [columns, rows] = self.heights().cells();
         let exact = point.in_ring::<Dyadic>();
         let ([x, y, z], w) =
@@ -271,6 +329,17 @@ impl<H: Heights> Sheet<H> {
     }
 }
 
+/// Whether a coordinate is between 0 and 1, if that is certain.
+fn strictly_within(at: f64, error: f64) -> Option<bool> {
+    if at > error && sub_down(1.0, at) > error {
+        Some(true)
+    } else if at < -error || sub_up(1.0, at) < -error {
+        Some(false)
+    } else {
+        None
+    }
+}
+
 /// The cell that holds a coordinate, from about where it is and on which side of other coordinates.
 fn cell_of(about: f64, cells: u32, from: impl Fn(f64) -> Ordering) -> u32 {
     let mut n = ((about * f64::from(cells)) as u32).min(cells - 1);
@@ -283,13 +352,8 @@ fn cell_of(about: f64, cells: u32, from: impl Fn(f64) -> Ordering) -> u32 {
     n
 }
 
-/// The edges of a border below which a line may pass the wall.
-fn edges_near(line: &Line<'_>, (axis, place): (usize, f64), edges: u32) -> RangeInclusive<u32> {
-    let Some((low, high)) = line.across(2 - axis, (axis, place)) else { return 0..=edges - 1 };
-    if high < 0.0 || low > 1.0 {
-        return RangeInclusive::new(1, 0);
-    }
-    let of = |at: f64| ((at * f64::from(edges)).max(0.0) as u32).min(edges - 1);
-    // One more each way pays for roundings.
-    of(low).saturating_sub(1)..=(of(high) + 1).min(edges - 1)
+/// The cell that holds an interval of coordinates, if that is one.
+fn cell_around(low: f64, high: f64, cells: u32) -> Option<u32> {
+    let n = ((low * f64::from(cells)).max(0.0) as u32).min(cells - 1);
+    (at(n, cells) <= low && high <= at(n + 1, cells)).then_some(n)
 }

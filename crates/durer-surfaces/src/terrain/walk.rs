@@ -143,30 +143,68 @@ impl<'a> Line<'a> {
         !(a.min(b) - self.error.y > high - centre || a.max(b) + self.error.y < low - centre)
     }
 
-    /// Bounds of the coordinate along `axis`, in the sheet's frame, where the ray is at `at` on
-    /// another axis. `None` if there are none.
-    pub(super) fn across(&self, axis: usize, (other, at): (usize, f64)) -> Option<(f64, f64)> {
+    /// The place where the ray is at `at` on an axis. `None` if it has no bounds.
+    #[inline(always)]
+    pub(super) fn place(&self, axis: usize, at: f64) -> Option<Place> {
         // Not within the box: `S` is that of the place itself.
-        let at = at - self.ray.centre[other];
-        let d = self.d[other];
-        if !(self.ray.d_err[other] <= 0.25 * d.abs() && d != 0.0) {
+        let at = at - self.ray.centre[axis];
+        let d = self.d[axis];
+        if !(self.ray.d_err[axis] <= 0.25 * d.abs() && d != 0.0) {
             return None;
         }
-        let s = (at - self.o[other]) / d;
+        let s = (at - self.o[axis]) / d;
         let reach = 2.0 * (s.abs() + 1.0);
-        let error = |axis: usize| {
-            let rounding = 16.0 * U * (1.0 + self.o[axis].abs() + 2.0 * reach);
-            self.ray.d_err[axis].mul_add(reach, self.ray.o_err[axis]) + rounding
-        };
-        let slack = error(other) / d.abs();
-        let (a, b) = (
-            (s - slack).mul_add(self.d[axis], self.o[axis]),
-            (s + slack).mul_add(self.d[axis], self.o[axis]),
-        );
-        let (low, high) = (a.min(b) - error(axis), a.max(b) + error(axis));
-        let centre = self.ray.centre[axis];
-        (low <= high).then_some((low + centre, high + centre))
+        let slack = self.error_within(axis, reach) / d.abs();
+        let place = Place { s: (s - slack, s + slack), reach };
+        (place.s.0 <= place.s.1).then_some(place)
     }
+
+    /// `E` along an axis, for points at `|s| <= reach` that need not be in the box.
+    #[inline(always)]
+    fn error_within(&self, axis: usize, reach: f64) -> f64 {
+        let rounding = 16.0 * U * (1.0 + self.o[axis].abs() + 2.0 * reach);
+        self.ray.d_err[axis].mul_add(reach, self.ray.o_err[axis]) + rounding
+    }
+
+    /// Whether a place may be in a range of `t`.
+    #[inline(always)]
+    pub(super) fn may_reach(&self, place: &Place, range: (f64, f64)) -> bool {
+        let local = self.ray.local();
+        let (own, asked) = (self.ray.window((local.t_min, local.t_max)), self.ray.window(range));
+        place.s.1 >= own.0.max(asked.0) && place.s.0 <= own.1.min(asked.1)
+    }
+
+    /// Bounds of the coordinate of a place along `axis`, seen from the centre.
+    #[inline(always)]
+    fn coordinate(&self, place: &Place, axis: usize) -> (f64, f64) {
+        let (a, b) =
+            (place.s.0.mul_add(self.d[axis], self.o[axis]), place.s.1.mul_add(self.d[axis], self.o[axis]));
+        let error = self.error_within(axis, place.reach);
+        (a.min(b) - error, a.max(b) + error)
+    }
+
+    /// Bounds of the coordinate of a place along x or z, in the sheet's frame, where the centre is
+    /// between 0 and 1.
+    #[inline(always)]
+    pub(super) fn across(&self, place: &Place, axis: usize) -> (f64, f64) {
+        let ((low, high), centre) = (self.coordinate(place, axis), self.ray.centre[axis]);
+        (low + centre, high + centre)
+    }
+
+    /// Whether a place is certainly above a height. The height seen from the centre is rounded by `u`
+    /// of itself, which is less than `E` where the place is about as high.
+    #[inline(always)]
+    pub(super) fn is_above(&self, place: &Place, height: f64) -> bool {
+        self.coordinate(place, 1).0 > height - self.ray.centre.y
+    }
+}
+
+/// A place on the ray, within bounds of its parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    s: (f64, f64),
+    /// No parameter in it is larger.
+    reach: f64,
 }
 
 /// Crossings that were found and must wait until none before them can be found any more.

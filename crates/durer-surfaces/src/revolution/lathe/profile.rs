@@ -250,9 +250,12 @@ impl Profile {
         fn times<T: Ring>(x: f64, a: T) -> T {
             T::exact(x) * a
         }
-        let control = self.control(i);
-        let p = |j: usize| self.seen::<T>(control.get(j).map_or(0.0, |p| p[k]), k);
+        let mut seen = [zero(), zero(), zero(), zero()];
+        for (seen, point) in seen.iter_mut().zip(self.control(i)) {
+            *seen = self.seen(point[k], k);
+        }
         // In powers of u.
+        let p = |j: usize| seen[j].clone();
         let [a, b, c, d] = match self.spline {
             LatheSpline::Linear => [p(0), p(1) - p(0), zero(), zero()],
             LatheSpline::Quadratic => {
