@@ -1,12 +1,13 @@
 //! All crossings of a ray with a sweep: the runs of all pieces that it meets, joined where a run
 //! goes on from one piece to the next, and united.
 
-use super::line::{Doubt, Line, PieceLine, RunEnd, Widths};
+use super::line::{Doubt, Line, MOST, PieceLine, RunEnd, Widths};
 use super::spline::Basis;
 use super::{SphereSweep, exact};
 use crate::blob::{Along, Inner};
 use crate::roots::quadratic::NARROW;
 use crate::{CentredRay, End, Flow, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
+use arrayvec::ArrayVec;
 use core::cell::Cell;
 use core::cmp::Ordering;
 use durer_math::efloat::Word;
@@ -89,7 +90,7 @@ pub(super) fn roots<const K: usize, const M: usize>(
         let widths = Widths { origin: at.shift(), half, most };
         let Lists { pieces, spans, .. } = &mut lists;
         let mut certain = true;
-        if unite(sweep, basis, &Line::double(&at), pieces, &widths, spans).is_err() {
+        if unite(sweep, basis, &at, Precision::Double, pieces, &widths, spans).is_err() {
             certain = unite_exactly(sweep, basis, &at, pieces, &widths, spans);
         }
         show(sweep, basis, &at, (pieces, spans), &widths, certain, sink);
@@ -124,35 +125,92 @@ fn meet(sweep: &SphereSweep, at: &CentredRay<'_>, lists: &mut Lists, limit: f64)
     pieces.sort_unstable();
 }
 
-/// The spans of the line, ascending, which do not touch each other.
+/// A run of a piece as an interval of the line, and whether it holds the piece's first and last ball.
+type Stretch = (Span, [bool; 2]);
+
+/// The runs of one piece.
+type Stretches = ArrayVec<Stretch, MOST>;
+
+/// The runs of a piece that the line meets.
 #[inline(always)]
-fn unite<T: Word, const K: usize, const M: usize>(
+fn stretches<T: Word, const K: usize, const M: usize>(
     sweep: &SphereSweep,
     basis: &Basis<K, M>,
     line: &Line<T>,
+    (number, points): (u32, &[[f64; 4]; K]),
+    widths: &Widths,
+) -> Result<Stretches, Doubt> {
+    let mut found = Stretches::new();
+    let piece = PieceLine::<T, K, M>::new(sweep, basis, line, number, points);
+    if piece.misses() {
+        return Ok(found);
+    }
+    for run in &piece.runs()? {
+        let [from, to] = [piece.end(run, -1.0, widths)?, piece.end(run, 1.0, widths)?];
+        found.push((Span { from, to, touches: false }, [run.first, run.last]));
+    }
+    Ok(found)
+}
+
+/// The same in double-double.
+#[cold]
+#[inline(never)]
+fn stretches_in_double_double<const K: usize, const M: usize>(
+    sweep: &SphereSweep,
+    basis: &Basis<K, M>,
+    at: &CentredRay<'_>,
+    piece: (u32, &[[f64; 4]; K]),
+    widths: &Widths,
+) -> Result<Stretches, Doubt> {
+    let wide = Line::wide(at).ok_or(Doubt)?;
+    Isa::detect().run(
+        #[inline(always)]
+        || stretches(sweep, basis, &wide, piece, widths),
+    )
+}
+
+/// The precision in which runs are computed first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Precision {
+    /// In f64; in double-double for the pieces for which that is not enough.
+    Double,
+    DoubleDouble,
+}
+
+/// The spans of the line, ascending, which do not touch each other.
+#[inline(always)]
+fn unite<const K: usize, const M: usize>(
+    sweep: &SphereSweep,
+    basis: &Basis<K, M>,
+    at: &CentredRay<'_>,
+    precision: Precision,
     pieces: &[u32],
     widths: &Widths,
     spans: &mut Vec<Span>,
 ) -> Result<(), Doubt> {
     spans.clear();
+    let line = Line::double(at);
     // The piece whose last ball the last span holds.
     let mut goes_on = None;
     for &number in pieces {
         let Some(points) = sweep.piece::<K>(number as usize) else { continue };
-        let piece = PieceLine::<T, K, M>::new(sweep, basis, line, number, points);
-        if piece.misses() {
-            continue;
-        }
-        for run in &piece.runs()? {
-            let [from, to] = [piece.end(run, -1.0, widths)?, piece.end(run, 1.0, widths)?];
-            let span = Span { from, to, touches: false };
+        let piece = (number, points);
+        let in_double = match precision {
+            Precision::Double => stretches(sweep, basis, &line, piece, widths),
+            Precision::DoubleDouble => Err(Doubt),
+        };
+        let found = match in_double {
+            Ok(found) => found,
+            Err(Doubt) => stretches_in_double_double(sweep, basis, at, piece, widths)?,
+        };
+        for (span, [first, last]) in &found {
             match spans.last_mut() {
-                Some(last) if run.first && number > 0 && goes_on == Some(number - 1) => {
-                    *last = last.with(&span);
+                Some(before) if *first && number > 0 && goes_on == Some(number - 1) => {
+                    *before = before.with(span);
                 }
-                _ => spans.push(span),
+                _ => spans.push(*span),
             }
-            goes_on = run.last.then_some(number);
+            goes_on = last.then_some(number);
         }
     }
     merge(spans)
@@ -183,7 +241,7 @@ fn merge(spans: &mut Vec<Span>) -> Result<(), Doubt> {
     Ok(())
 }
 
-/// The same in double-double, then exactly; whether the spans are certain.
+/// The same with all pieces in double-double, then exactly; whether the spans are certain.
 #[cold]
 #[inline(never)]
 fn unite_exactly<const K: usize, const M: usize>(
@@ -194,16 +252,8 @@ fn unite_exactly<const K: usize, const M: usize>(
     widths: &Widths,
     spans: &mut Vec<Span>,
 ) -> bool {
-    let wide = Line::wide(at);
-    // A closure in this one would not be compiled for the processor's instructions.
-    let told = Isa::detect().run(
-        #[inline(always)]
-        || match wide {
-            Some(line) => unite(sweep, basis, &line, pieces, widths, spans).is_ok(),
-            None => false,
-        },
-    );
-    told || exact::unite(sweep, basis, at, pieces, widths, spans)
+    unite(sweep, basis, at, Precision::DoubleDouble, pieces, widths, spans).is_ok()
+        || exact::unite(sweep, basis, at, pieces, widths, spans)
 }
 
 /// Passes on the crossings that are in the ray's range.
