@@ -30,8 +30,8 @@ pub(super) const E_POINTS: f64 = durer_math::scale::pow2(-90);
 const NOISE: f64 = 8.0;
 /// No corner is refined more often.
 pub(super) const MOST_STEPS: u32 = 120;
-/// Steps that are taken ahead at most, and at least.
-const AHEAD: [u32; 2] = [6, 1];
+/// Steps that are taken ahead at most.
+pub(super) const AHEAD: u32 = 6;
 /// Fewer steps are taken ahead if there would be more patches than this.
 const MANY: usize = 1 << 18;
 
@@ -181,7 +181,7 @@ fn hull(points: &[[Dd; 3]]) -> Aabb {
 impl Limit {
     /// The limit surface of quadrilaterals, without those that are holes; `None` only for a mesh that
     /// is not valid.
-    pub(super) fn new(mesh: &Topology, points: &[[Dd; 3]], is_hole: &[bool], frame: (Point3, i32, f64)) -> Option<Self> {
+    pub(super) fn new(mesh: &Topology, points: &[[Dd; 3]], is_hole: &[bool], frame: (Point3, i32, f64), most: u32) -> Option<Self> {
         let (centre, scale, reach) = frame;
         let adjacency = Adjacency::new(mesh);
         let mut plans = Plans::default();
@@ -197,8 +197,7 @@ impl Limit {
         }
         let plans = plans.all;
         let corners = roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
-        let [most, least] = AHEAD;
-        let ahead = (least..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(least);
+        let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut tails) = (Vec::new(), Vec::new());
         let mut all = Vec::new();
@@ -371,7 +370,8 @@ impl Limit {
         }
         let rooms = [self.room(a, extra), self.room(b, extra)];
         let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
-        let may_be = rooms.iter().any(|r| *r > 0.0) || on_edge(a) && on_edge(b);
+        // One of them may be in the other's patch as well; that other one may surely be in its own.
+        let may_be = rooms.iter().any(|r| *r > 0.0) || on_edge(a) || on_edge(b);
         let is_alike = a.turn == b.turn || a.turn == 0 || b.turn == 0;
         may_be && is_alike && (a.s - b.s).abs() <= a.s_err + b.s_err + rooms[0] + rooms[1]
     }

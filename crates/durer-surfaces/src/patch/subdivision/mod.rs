@@ -36,7 +36,7 @@ use crate::roots::quadratic::Quadratic;
 use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
 use data::INFINITELY_SHARP;
 use durer_math::{Aabb, Dd, Dyadic, Isa, Point3};
-use limit::Limit;
+use limit::{AHEAD, Limit};
 use std::sync::Arc;
 use topology::{Adjacency, Topology, apply, edge_of};
 
@@ -128,6 +128,16 @@ fn volume(data: &SubdivisionData, centre: Point3) -> f64 {
 impl SubdivisionSurface {
     /// The surface of this control mesh.
     pub fn new(data: SubdivisionData) -> Result<Self, SubdivisionError> {
+        Self::made(data, AHEAD)
+    }
+
+    /// The same, with fewer steps taken ahead.
+    #[cfg(test)]
+    fn remade(&self, ahead: u32) -> Self {
+        Self::made((*self.data).clone(), ahead).unwrap_or_else(|_| self.clone())
+    }
+
+    fn made(data: SubdivisionData, ahead: u32) -> Result<Self, SubdivisionError> {
         data.check()?;
         let used = data.faces.iter().flatten().map(|v| data.vertices[*v as usize]);
         let frame = Limit::frame(used);
@@ -161,7 +171,7 @@ impl SubdivisionSurface {
         }
         let is_hole: Vec<bool> = origins.iter().map(|face| is_missing[*face as usize]).collect();
         let is_closed = data.holes.is_empty() && is_closed(&data);
-        let limit = Limit::new(&mesh, &points, &is_hole, frame);
+        let limit = Limit::new(&mesh, &points, &is_hole, frame, ahead);
         let mut limit = limit.ok_or(SubdivisionError::Nothing("its faces do not make a surface"))?;
         if is_closed && volume(&data, centre) < 0.0 {
             limit.outward = -1;
