@@ -646,12 +646,12 @@ class Subdivision(Object):
             raise ValueError(f'boundary: "corners" or "smooth" is needed, got {boundary!r}')
         points = _rows(vertices, 3, "vertices")
         polygons, uv_polygons = _polygons(faces, "faces"), _polygons(uv_faces, "uv_faces")
-        coordinates = () if uv is None else _rows(uv, 2, "uv")
+        coordinates = None if uv is None else _rows(uv, 2, "uv")
         edges = tuple((_index(a, "creases"), _index(b, "creases"), number(s, "creases")) for a, b, s in creases)
         sharp = tuple((_index(v, "corners"), number(s, "corners")) for v, s in corners)
         missing = tuple(_index(face, "holes") for face in holes)
         smooth = boundary == "smooth"
-        native = _native.subdivision(points, polygons, coordinates, uv_polygons, edges, sharp, missing, smooth)
+        native = _native.subdivision(points, polygons, coordinates or (), uv_polygons, edges, sharp, missing, smooth)
         self._set(native, (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons))
 
 

@@ -22,7 +22,7 @@ use crate::patch::shell::{Face, ROOM, is_held, joined, overlap, root};
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Dd, Point3, U, Vec3};
+use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 
 /// The error of points besides their rounding to f64, in units.
 pub(super) const E_POINTS: f64 = durer_math::scale::pow2(-90);
@@ -173,6 +173,14 @@ thread_local! {
     static LISTS: Slot<Lists> = Slot::default();
 }
 
+#[inline(never)]
+fn meet_cell(line: &Line, cell: &Cell, found: &mut Vec<Found>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || View::new(line, cell, false).meet(found),
+    );
+}
+
 /// A box that holds points.
 fn hull(points: &[[Dd; 3]]) -> Aabb {
     Aabb::from_points(points.iter().map(|p| Vec3::from(p.map(Dd::to_f64)).to_point()))
@@ -301,9 +309,7 @@ impl Limit {
                 Inner::Leaf(from, to) => {
                     for item in &self.items[from..to] {
                         match *item {
-                            Item::Cell(k) => {
-                                View::new(&line, &self.cells[k as usize], false).meet(&mut lists.found);
-                            }
+                            Item::Cell(k) => meet_cell(&line, &self.cells[k as usize], &mut lists.found),
                             Item::Tail(k) => self.unfold(&line, &self.tails[k as usize], window, lists),
                         }
                     }
@@ -329,7 +335,7 @@ impl Limit {
                 lists.cells.clear();
                 cells(&net, false, number, &mut lists.cells);
                 for cell in &lists.cells {
-                    View::new(line, cell, false).meet(&mut lists.found);
+                    meet_cell(line, cell, &mut lists.found);
                 }
                 continue;
             }
