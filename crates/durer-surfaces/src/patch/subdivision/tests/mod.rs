@@ -120,8 +120,8 @@ fn rays_from_inside_leave_closed_meshes_once_in_turn() {
             unsure += roots.iter().filter(|r| r.kind != RootKind::Simple).count() as u64;
             rays += 2;
         }
+        println!("{name}: {rays} rays so far, {unsure} crossings not proven");
     }
-    println!("{rays} rays, {unsure} crossings not proven");
     report(rays);
 }
 
