@@ -45,10 +45,23 @@ pub(crate) struct SceneArgs {
     /// Changes a limit of the reader, for example `macro-depth=2000`; may be given several times.
     #[arg(long, value_name = "NAME=N", value_parser = limit)]
     pub(crate) limit: Vec<(String, u64)>,
+    /// Takes the polygons of an .obj file as a control mesh, and shows the limit surface of this
+    /// subdivision.
+    #[arg(long, value_name = "SCHEME")]
+    pub(crate) subdivide: Option<Subdivide>,
     /// Refuses a scene with features that would be left out of the picture: radiosity, photons,
     /// media, subsurface.
     #[arg(long)]
     pub(crate) strict: bool,
+}
+
+/// How polygons are refined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Subdivide {
+    /// Catmull and Clark's: any polygons.
+    CatmullClark,
+    /// Loop's: triangles. Not supported yet.
+    Loop,
 }
 
 /// The size of the picture.

@@ -1,6 +1,6 @@
 //! Input: from a file's name to a scene and its geometry.
 
-use crate::args::SceneArgs;
+use crate::args::{SceneArgs, Subdivide};
 use crate::failure::Failure;
 use durer::geometry::ObjectId;
 use durer::math::Isa;
@@ -25,7 +25,10 @@ pub(crate) enum Loaded {
 pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
     let options = read_options(args, (width, height))?;
     if Format::of(&args.scene).is_some() {
-        return load_mesh(&args.scene, (width, height));
+        return match args.subdivide {
+            Some(_) => load_subdivided(&args.scene, (width, height)),
+            None => load_mesh(&args.scene, (width, height)),
+        };
     }
     // Scenes end the lines of their `#debug` messages themselves, or forget to. Other messages
     // start on a new line.
@@ -58,6 +61,15 @@ pub(crate) fn read_options(args: &SceneArgs, (width, height): (u32, u32)) -> Res
     if Format::of(&args.scene).is_none() {
         check_ending(&args.scene)?;
     }
+    if let Some(scheme) = args.subdivide {
+        if scheme == Subdivide::Loop {
+            return Err(Failure::Usage("not supported yet: --subdivide loop".into()));
+        }
+        if Format::of(&args.scene) != Some(Format::Obj) {
+            let got = args.scene.display();
+            return Err(Failure::Usage(format!("--subdivide needs an .obj file, got '{got}'")));
+        }
+    }
     let mut limits = Limits::default();
     for (name, value) in &args.limit {
         if !limits.set(&name.replace('-', "_"), *value) {
@@ -82,6 +94,16 @@ fn load_mesh(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure
         eprintln!("{}", mesh_warning(path, warning));
     }
     Ok(Loaded::Mesh(path.to_path_buf(), Box::new(model.into_scene(width, height))))
+}
+
+fn load_subdivided(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
+    let read = durer::mesh::read_control_mesh(path).map_err(|e| Failure::Input(format!("error: {e}")))?;
+    let (data, warnings) = read;
+    for warning in &warnings {
+        eprintln!("{}", mesh_warning(path, warning));
+    }
+    let scene = durer::mesh::subdivided_scene(data, width, height);
+    Ok(Loaded::Mesh(path.to_path_buf(), Box::new(scene)))
 }
 
 fn mesh_warning(path: &Path, text: impl std::fmt::Display) -> String {

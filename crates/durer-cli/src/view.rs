@@ -8,6 +8,9 @@ use std::process::{Command, Stdio};
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     let options = input::read_options(&args.scene, args.size.size())?;
+    if args.scene.subdivide.is_some() {
+        return Err(Failure::Usage("not supported yet: --subdivide with view".into()));
+    }
     let settings =
         ViewSettings { anti_aliasing: args.aa, threads: args.threads.map(usize::from), port: args.port };
     let failed = |error: ViewError| match error {

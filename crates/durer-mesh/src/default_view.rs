@@ -3,7 +3,8 @@
 use crate::{Format, Instance, Model, Topology};
 use durer_math::{Aabb, Affine, Point3, Vec3};
 use durer_scene::{
-    Background, Camera, Colour, Finish, Light, Mesh, Object, Pigment, Projection, Rgb, Scene, Shape, Texture,
+    Background, Camera, Colour, Finish, Light, Mesh, Object, Pigment, Projection, Rgb, Scene, Shape,
+    SubdivisionData, Texture,
 };
 use std::sync::Arc;
 
@@ -54,44 +55,57 @@ impl Model {
     /// [STL](Format::Stl) files, which come from machines, it is +z. `width` and `height` are those
     /// of the picture.
     pub fn into_scene(self, width: u32, height: u32) -> Scene {
-        let bounds = self.bounds();
-        let (centre, half) = if bounds.is_bounded() && !bounds.is_empty() {
-            (bounds.centre(), bounds.widths() * 0.5)
-        } else {
-            (Point3::ORIGIN, Vec3::ZERO)
-        };
-        let radius = half.length();
-        let radius = if radius > 0.0 { radius } else { 1.0 };
-        // The view is from the front, a little from the right and from above; `back` points to the
-        // viewer.
-        let (front, side, top) = match self.format {
-            Format::Stl => (-Vec3::Y, Vec3::X, Vec3::Z),
-            _ => (Vec3::Z, Vec3::X, Vec3::Y),
-        };
-        let back = unit(front + side * 0.45 + top * 0.35);
-        let right = unit(top.cross(back));
-        let up = back.cross(right);
-        let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
-        let unit_of = 2.0 * SLOPE / width.min(height);
-        // The ball around everything touches the sides of the picture. Its distance is
-        // `radius / sin` of the angle whose tangent is `SLOPE`.
-        let distance = radius * SLOPE.mul_add(SLOPE, 1.0).sqrt() / SLOPE;
-        let location = centre + back * distance;
-        let camera = Camera {
-            projection: Projection::Perspective,
-            location,
-            direction: -back,
-            right: right * (unit_of * width),
-            up: up * (unit_of * height),
-        };
-        let lamp = location + (up * 0.6 - right * 0.8) * distance;
-        Scene {
-            objects: self.into_objects(),
-            lights: vec![Light::point(lamp, Rgb::WHITE)],
-            camera: Some(camera),
-            background: Background(Colour::opaque(Rgb::new(0.25, 0.28, 0.32))),
-            ..Scene::default()
-        }
+        let (bounds, format) = (self.bounds(), self.format);
+        scene_of(self.into_objects(), bounds, format, [width, height])
+    }
+}
+
+/// A scene of one subdivision surface, seen and lit as a mesh is ([`Model::into_scene`]).
+pub fn subdivided_scene(data: SubdivisionData, width: u32, height: u32) -> Scene {
+    let used = data.faces.iter().flatten().filter_map(|v| data.vertices.get(*v as usize)).copied();
+    let bounds = Aabb::from_points(used.filter(|p: &Point3| p.is_finite()));
+    let texture = Arc::new(paint(Colour::opaque(Rgb::new(0.8, 0.8, 0.8))));
+    let object = Object::new(Shape::Subdivision(Arc::new(data))).with_texture(texture);
+    scene_of(vec![object], bounds, Format::Obj, [width, height])
+}
+
+fn scene_of(objects: Vec<Object>, bounds: Aabb, format: Format, [width, height]: [u32; 2]) -> Scene {
+    let (centre, half) = if bounds.is_bounded() && !bounds.is_empty() {
+        (bounds.centre(), bounds.widths() * 0.5)
+    } else {
+        (Point3::ORIGIN, Vec3::ZERO)
+    };
+    let radius = half.length();
+    let radius = if radius > 0.0 { radius } else { 1.0 };
+    // The view is from the front, a little from the right and from above; `back` points to the
+    // viewer.
+    let (front, side, top) = match format {
+        Format::Stl => (-Vec3::Y, Vec3::X, Vec3::Z),
+        _ => (Vec3::Z, Vec3::X, Vec3::Y),
+    };
+    let back = unit(front + side * 0.45 + top * 0.35);
+    let right = unit(top.cross(back));
+    let up = back.cross(right);
+    let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
+    let unit_of = 2.0 * SLOPE / width.min(height);
+    // The ball around everything touches the sides of the picture. Its distance is
+    // `radius / sin` of the angle whose tangent is `SLOPE`.
+    let distance = radius * SLOPE.mul_add(SLOPE, 1.0).sqrt() / SLOPE;
+    let location = centre + back * distance;
+    let camera = Camera {
+        projection: Projection::Perspective,
+        location,
+        direction: -back,
+        right: right * (unit_of * width),
+        up: up * (unit_of * height),
+    };
+    let lamp = location + (up * 0.6 - right * 0.8) * distance;
+    Scene {
+        objects,
+        lights: vec![Light::point(lamp, Rgb::WHITE)],
+        camera: Some(camera),
+        background: Background(Colour::opaque(Rgb::new(0.25, 0.28, 0.32))),
+        ..Scene::default()
     }
 }
 

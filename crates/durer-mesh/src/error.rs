@@ -43,6 +43,9 @@ pub enum ErrorKind {
     /// The file's extension is not that of a known format.
     #[error("the ending tells no format that can be read: .obj, .ply, .stl, .gltf or .glb")]
     Format,
+    /// Only OBJ files have polygons that can be subdivided.
+    #[error("only .obj files can be control meshes of subdivision surfaces")]
+    Polygons,
     /// The file cannot be opened or read.
     #[error("cannot be read: {0}")]
     Read(String),

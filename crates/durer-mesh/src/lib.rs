@@ -30,12 +30,13 @@ mod text;
 mod topology;
 mod warning;
 
+pub use crate::default_view::subdivided_scene;
 pub use crate::error::{ErrorKind, Location, MeshError};
 pub use crate::topology::Topology;
 pub use crate::warning::Warning;
 
 use durer_math::Affine;
-use durer_scene::Mesh;
+use durer_scene::{Mesh, SubdivisionData};
 use std::path::Path;
 
 /// The contents of a mesh file.
@@ -100,13 +101,34 @@ impl Format {
 pub fn read(path: &Path) -> Result<Model, MeshError> {
     let fail = |kind| MeshError { path: path.to_path_buf(), kind };
     let format = Format::of(path).ok_or_else(|| fail(ErrorKind::Format))?;
-    let failed = |e: std::io::Error| fail(ErrorKind::Read(e.to_string()));
+    let bytes = bytes_of(path).map_err(fail)?;
+    read_beside(&bytes, format, path.parent()).map_err(fail)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, ErrorKind> {
+    let failed = |e: std::io::Error| ErrorKind::Read(e.to_string());
     // A pipe is not opened, because that could wait forever.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(fail(ErrorKind::Read("it is no file".into())));
+        return Err(ErrorKind::Read("it is no file".into()));
     }
-    let bytes = std::fs::read(path).map_err(failed)?;
-    read_beside(&bytes, format, path.parent()).map_err(fail)
+    std::fs::read(path).map_err(failed)
+}
+
+/// Reads the polygons of an OBJ file as the control mesh of a subdivision surface, whatever groups
+/// they are in, and warnings about what was left out.
+pub fn read_control_mesh(path: &Path) -> Result<(SubdivisionData, Vec<Warning>), MeshError> {
+    let fail = |kind| MeshError { path: path.to_path_buf(), kind };
+    if Format::of(path) != Some(Format::Obj) {
+        return Err(fail(ErrorKind::Polygons));
+    }
+    control_mesh(&bytes_of(path).map_err(fail)?).map_err(fail)
+}
+
+/// What [`read_control_mesh`] reads, from memory.
+pub fn control_mesh(bytes: &[u8]) -> Result<(SubdivisionData, Vec<Warning>), ErrorKind> {
+    let mut warnings = Vec::new();
+    let data = obj::control_mesh(text::without_mark(bytes), &mut warnings)?;
+    Ok((data, warnings))
 }
 
 /// Reads a mesh file from memory. It cannot refer to other files.

@@ -12,6 +12,7 @@ use crate::group::{Corner, Groups};
 use crate::text::{lines, number, shortened, three};
 use crate::{Group, Warning};
 use durer_math::{Point3, Vec3};
+use durer_scene::SubdivisionData;
 
 /// Statements that are ignored.
 const PASSED_OVER: [&str; 15] = [
@@ -39,8 +40,100 @@ const FREE_FORM: [&str; 16] = [
 ];
 
 pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Group>, ErrorKind> {
-    let mut dangling = None;
     let mut groups = Groups::default();
+    statements(bytes, warnings, &mut groups)?;
+    Ok(groups.end())
+}
+
+/// The polygons as a control mesh. Groups and normals are ignored. Texture coordinates are kept if
+/// all corners have some.
+pub(crate) fn control_mesh(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<SubdivisionData, ErrorKind> {
+    let mut polygons = Polygons::default();
+    statements(bytes, warnings, &mut polygons)?;
+    let Polygons { mut data, lacks_uv, .. } = polygons;
+    if data.faces.is_empty() {
+        return Err(ErrorKind::Empty);
+    }
+    if lacks_uv {
+        (data.uv, data.uv_faces) = (Vec::new(), Vec::new());
+    }
+    Ok(data)
+}
+
+/// What takes the statements.
+trait Receiver {
+    /// How many vertices, texture coordinates and normals there are so far.
+    fn counts(&self) -> [usize; 3];
+    fn vertex(&mut self, p: Point3);
+    fn normal(&mut self, n: Vec3);
+    fn uv(&mut self, uv: [f64; 2]);
+    fn face(&mut self, face: &[Corner], spot: Location) -> Result<(), ErrorKind>;
+    fn begin(&mut self, name: &str);
+}
+
+impl Receiver for Groups {
+    fn counts(&self) -> [usize; 3] {
+        [self.vertices.len(), self.uv.len(), self.normals.len()]
+    }
+
+    fn vertex(&mut self, p: Point3) {
+        self.vertices.push(p);
+    }
+
+    fn normal(&mut self, n: Vec3) {
+        self.normals.push(n);
+    }
+
+    fn uv(&mut self, uv: [f64; 2]) {
+        self.uv.push(uv);
+    }
+
+    fn face(&mut self, face: &[Corner], spot: Location) -> Result<(), ErrorKind> {
+        Groups::face(self, face, spot)
+    }
+
+    fn begin(&mut self, name: &str) {
+        Groups::begin(self, name);
+    }
+}
+
+#[derive(Default)]
+struct Polygons {
+    data: SubdivisionData,
+    normals: usize,
+    lacks_uv: bool,
+}
+
+impl Receiver for Polygons {
+    fn counts(&self) -> [usize; 3] {
+        [self.data.vertices.len(), self.data.uv.len(), self.normals]
+    }
+
+    fn vertex(&mut self, p: Point3) {
+        self.data.vertices.push(p);
+    }
+
+    fn normal(&mut self, _: Vec3) {
+        self.normals += 1;
+    }
+
+    fn uv(&mut self, uv: [f64; 2]) {
+        self.data.uv.push(uv);
+    }
+
+    fn face(&mut self, face: &[Corner], _: Location) -> Result<(), ErrorKind> {
+        self.data.faces.push(face.iter().map(|corner| corner.vertex).collect());
+        let uv: Option<Vec<u32>> = face.iter().map(|corner| corner.uv).collect();
+        self.lacks_uv |= uv.is_none();
+        self.data.uv_faces.extend(uv);
+        Ok(())
+    }
+
+    fn begin(&mut self, _: &str) {}
+}
+
+fn statements(bytes: &[u8], warnings: &mut Vec<Warning>, to: &mut dyn Receiver) -> Result<(), ErrorKind> {
+    let mut dangling = None;
     let mut face = Vec::new();
     let mut continued = String::new();
     for (at, line) in lines(bytes) {
@@ -60,11 +153,11 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
         let mut words = line.split_whitespace();
         let Some(word) = words.next() else { continue };
         match word {
-            "v" => groups.vertices.push(Point3::from(three(&mut words, at, "three coordinates")?)),
-            "vn" => groups.normals.push(Vec3::from(three(&mut words, at, "three components")?)),
-            "vt" => groups.uv.push(texture_coordinates(&mut words, at)?),
+            "v" => to.vertex(Point3::from(three(&mut words, at, "three coordinates")?)),
+            "vn" => to.normal(Vec3::from(three(&mut words, at, "three components")?)),
+            "vt" => to.uv(texture_coordinates(&mut words, at)?),
             "f" => {
-                let counts = [groups.vertices.len(), groups.uv.len(), groups.normals.len()];
+                let counts = to.counts();
                 face.clear();
                 for word in words {
                     face.push(corner(word, counts, Location::Line(at), &mut dangling)?);
@@ -72,9 +165,9 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
                 if face.is_empty() {
                     return Err(ErrorKind::End { spot: Location::Line(at), expected: "a face's corners" });
                 }
-                groups.face(&face, Location::Line(at))?;
+                to.face(&face, Location::Line(at))?;
             }
-            "o" | "g" => groups.begin(line.trim_start()[word.len()..].trim()),
+            "o" | "g" => to.begin(line.trim_start()[word.len()..].trim()),
             _ if PASSED_OVER.contains(&word) => {}
             _ if FREE_FORM.contains(&word) => {
                 return Err(ErrorKind::Unsupported { spot: Location::Line(at), what: word.to_string() });
@@ -86,7 +179,7 @@ pub(crate) fn read(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<Vec<Grou
         }
     }
     warnings.extend(dangling);
-    Ok(groups.end())
+    Ok(())
 }
 
 /// Reads one or two numbers. A missing second number is zero; a third one, for solid textures, is

@@ -492,3 +492,18 @@ fn the_place_of_an_error_prints() {
     assert_eq!(Location::Byte(3).to_string(), "byte 3");
     assert_eq!(Location::Element("face", 7).to_string(), "face 7");
 }
+
+#[test]
+fn polygons_are_read_as_a_control_mesh() {
+    let text = b"o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\ng b\nv 2 0 0\nf 2/1 5/1 3/1\n";
+    let (data, warnings) = durer_mesh::control_mesh(text).unwrap();
+    assert_eq!(data.faces, [vec![0, 1, 2, 3], vec![1, 4, 2]]);
+    assert_eq!((data.vertices.len(), data.uv_faces.len(), warnings.len()), (5, 2, 0));
+    assert!(data.check().is_ok());
+    // Texture coordinates are kept if all corners have some.
+    let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3\n";
+    assert!(durer_mesh::control_mesh(text).unwrap().0.uv_faces.is_empty());
+    assert_eq!(durer_mesh::control_mesh(b"v 0 0 0\n"), Err(durer_mesh::ErrorKind::Empty));
+    let other = durer_mesh::read_control_mesh(std::path::Path::new("a.ply")).unwrap_err();
+    assert_eq!(other.kind, durer_mesh::ErrorKind::Polygons);
+}

@@ -14,7 +14,7 @@ use crate::colour::Colour;
 use crate::diagnostics::{Error, Place, Result};
 use crate::light::{Beam, Light};
 use crate::limits;
-use crate::object::{Object, Shape};
+use crate::object::{Object, Shape, subdivision_bytes};
 use crate::parser::Parser;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Finish, Interior, Layer, Texture};
@@ -456,6 +456,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
         Shape::Nurbs(data) => {
             limits::charge_for_good(data.points.len() * 32);
             scene::Shape::Nurbs(Arc::new((**data).clone()))
+        }
+        Shape::Subdivision(data) => {
+            limits::charge_for_good(subdivision_bytes(data));
+            scene::Shape::Subdivision(Arc::new((**data).clone()))
         }
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {

@@ -181,6 +181,29 @@ fn patches_say_what_is_wrong_with_them() {
             "knots must not fall: knot 4 is 1 after 2",
         ),
         ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { } }", "not supported yet: trim"),
+        ("subdivision { }", "this subdivision has no face_indices"),
+        ("subdivision { scheme loop }", "not supported yet: scheme loop"),
+        ("subdivision { scheme square }", "a scheme is catmull_clark or loop"),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }",
+            "subdivision: face 0 names vertex 3, there are 3 (0 to 2)",
+        ),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 2, <0, 1, 2>, <0, 1, 2> } }",
+            "subdivision: faces 0 and 1 both go from vertex 0 to 1; one of them must be turned round",
+        ),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, { 3, 0, 1.5, 2 } } }",
+            "a face has whole numbers from 0 on, not 1.5",
+        ),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1> } }",
+            "a face has 3 numbers at least, here are 2",
+        ),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> } creases { 1, <0, 1, 0> } }",
+            "subdivision: the sharpness of crease 0 must be positive, got 0",
+        ),
     ] {
         assert_eq!(fault(&text.replace("POINTS", points)).2, wanted, "{text}");
     }

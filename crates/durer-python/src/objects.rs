@@ -3,10 +3,10 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
+    Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
-    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Scheme,
+    Shape, Spline, StraightSweep, SubdivisionData, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -202,6 +202,31 @@ fn nurbs(
     periodic: [bool; 2],
 ) -> PyResult<Object> {
     checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic })))
+}
+
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the lists of a control mesh")]
+fn subdivision(
+    vertices: Vec<[f64; 3]>,
+    faces: Vec<Vec<u32>>,
+    uv: Vec<[f64; 2]>,
+    uv_faces: Vec<Vec<u32>>,
+    creases: Vec<(u32, u32, f64)>,
+    corners: Vec<(u32, f64)>,
+    holes: Vec<u32>,
+    smooth_boundary: bool,
+) -> PyResult<Object> {
+    checked(Shape::Subdivision(Arc::new(SubdivisionData {
+        scheme: Scheme::CatmullClark,
+        vertices: vertices.into_iter().map(point).collect(),
+        faces,
+        uv,
+        uv_faces,
+        creases: creases.into_iter().map(|(a, b, sharpness)| ([a, b], sharpness)).collect(),
+        corners,
+        holes,
+        boundary: if smooth_boundary { Boundary::Smooth } else { Boundary::Corners },
+    })))
 }
 
 #[pyfunction]
@@ -478,6 +503,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep, module)?)?;
     module.add_function(wrap_pyfunction!(bezier_patch, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs, module)?)?;
+    module.add_function(wrap_pyfunction!(subdivision, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

@@ -63,6 +63,6 @@ pub use durer_surfaces::ifs::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
-    BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData, NurbsError,
-    SweepSpline, Terrain, TerrainData, Warp, tape,
+    BlobComponent, BlobShape, Boundary, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData,
+    NurbsError, Scheme, SubdivisionData, SubdivisionError, SweepSpline, Terrain, TerrainData, Warp, tape,
 };

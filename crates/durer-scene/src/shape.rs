@@ -7,7 +7,8 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SubdivisionData, SweepSpline,
+    Terrain,
     Texture, Warp,
 };
 
@@ -132,6 +133,8 @@ pub enum Shape {
     Patch(Arc<Patch>),
     /// A surface of non-uniform rational B-splines.
     Nurbs(Arc<NurbsData>),
+    /// The limit surface of a mesh of polygons that is refined for ever; a solid if it is closed.
+    Subdivision(Arc<SubdivisionData>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.

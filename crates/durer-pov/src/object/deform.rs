@@ -224,6 +224,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
         Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Subdivision(_) => "a subdivision surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",

@@ -10,6 +10,7 @@ mod modifiers;
 mod patch;
 pub(crate) mod queries;
 mod shapes;
+mod subdivision;
 mod sweep;
 mod swept;
 mod terrain;
@@ -30,6 +31,7 @@ use durer_scene::{FillRule, Operation};
 
 pub(crate) use extension::Named;
 pub(crate) use mesh::Mesh;
+pub(crate) use subdivision::bytes as subdivision_bytes;
 
 /// The corners of a triangle, or a vector for each.
 pub(crate) type Three = [[f64; 3]; 3];
@@ -107,6 +109,7 @@ pub(crate) enum Shape {
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Patch(Rc<durer_scene::Patch>),
     Nurbs(Rc<durer_scene::NurbsData>),
+    Subdivision(Rc<durer_scene::SubdivisionData>),
     Ovus {
         bottom: f64,
         top: f64,

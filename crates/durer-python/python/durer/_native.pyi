@@ -60,6 +60,7 @@ __all__ = [
     "sphere",
     "sierpinski",
     "sphere_sweep",
+    "subdivision",
     "sweep",
     "spherical_sector",
     "superellipsoid",
@@ -218,6 +219,16 @@ def nurbs(
     degree: Sequence[int],
     knots: Sequence[_Numbers],
     periodic: Sequence[bool],
+) -> Object: ...
+def subdivision(
+    vertices: Sequence[_Numbers],
+    faces: Sequence[Sequence[int]],
+    uv: Sequence[_Numbers],
+    uv_faces: Sequence[Sequence[int]],
+    creases: Sequence[tuple[int, int, float]],
+    corners: Sequence[tuple[int, float]],
+    holes: Sequence[int],
+    smooth_boundary: bool,
 ) -> Object: ...
 def ovus(bottom: float, top: float) -> Object: ...
 def lemon(

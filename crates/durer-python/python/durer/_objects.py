@@ -6,6 +6,7 @@ Lengths are in the units of the scene, angles in radians, points and vectors are
 from __future__ import annotations
 
 import math
+import operator
 import os
 from collections.abc import Iterable, Sequence
 from typing import Any, final
@@ -595,6 +596,75 @@ class Nurbs(Object):
         closed = (bool(periodic[0]), bool(periodic[1]))
         native = _native.nurbs(*_flat(net), degrees, both, closed)
         self._set(native, (net, degrees, both, closed))
+
+
+@final
+class Subdivision(Object):
+    """The limit of Catmull and Clark's subdivision of a control mesh; a solid if the mesh is closed.
+
+    Parameters
+    ----------
+    vertices : array (n, 3)
+        The control points.
+    faces : sequence of sequences of whole numbers
+        Polygons of three vertices or more, by their numbers.
+    creases : sequence of (a, b, sharpness), optional
+        Sharp edges by their two vertices; a sharpness of 10 or more is sharp for ever.
+    corners : sequence of (vertex, sharpness), optional
+        Sharp vertices.
+    holes : sequence of whole numbers, optional
+        Faces that take part in the rules and are not there.
+    boundary : "corners" or "smooth"
+        Whether vertices with one face are sharp.
+    uv, uv_faces : array (k, 2) and sequence of sequences, optional
+        Texture coordinates, and their numbers at the corners of each face.
+
+    Examples
+    --------
+    >>> import durer
+    >>> corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    >>> faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> scene = durer.Scene([durer.Subdivision(corners, faces)])
+    >>> round(float(scene.closest([[3, 0, 0, -1, 0, 0]]).t[0]), 9)
+    2.160493827
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        faces: Sequence[Sequence[int]],
+        creases: Sequence[tuple[int, int, float]] = (),
+        corners: Sequence[tuple[int, float]] = (),
+        holes: Sequence[int] = (),
+        boundary: str = "corners",
+        uv: npt.ArrayLike | None = None,
+        uv_faces: Sequence[Sequence[int]] = (),
+    ) -> None:
+        if boundary not in ("corners", "smooth"):
+            raise ValueError(f'boundary: "corners" or "smooth" is needed, got {boundary!r}')
+        points = _rows(vertices, 3, "vertices")
+        polygons, uv_polygons = _polygons(faces, "faces"), _polygons(uv_faces, "uv_faces")
+        coordinates = None if uv is None else _rows(uv, 2, "uv")
+        edges = tuple((_index(a, "creases"), _index(b, "creases"), number(s, "creases")) for a, b, s in creases)
+        sharp = tuple((_index(v, "corners"), number(s, "corners")) for v, s in corners)
+        missing = tuple(_index(face, "holes") for face in holes)
+        smooth = boundary == "smooth"
+        native = _native.subdivision(points, polygons, coordinates or (), uv_polygons, edges, sharp, missing, smooth)
+        self._set(native, (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons))
+
+
+def _index(value: Any, name: str) -> int:
+    """One whole number from 0 on that fits 32 bits."""
+    index = operator.index(value)
+    if not 0 <= index < 2**32:
+        raise ValueError(f"{name}: a whole number from 0 on is needed, got {index}")
+    return index
+
+
+def _polygons(faces: Sequence[Sequence[int]], name: str) -> tuple[tuple[int, ...], ...]:
+    return tuple(tuple(_index(v, name) for v in face) for face in faces)
 
 
 @final

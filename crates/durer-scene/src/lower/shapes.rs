@@ -7,7 +7,7 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
     Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -133,6 +133,10 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         },
         Shape::Nurbs(data) => match Nurbs::new((**data).clone()) {
             Err(nothing @ NurbsError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?, map),
+        },
+        Shape::Subdivision(data) => match SubdivisionSurface::new((**data).clone()) {
+            Err(nothing @ SubdivisionError::Nothing(_)) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
         &Shape::Ovus { bottom, top } => {
@@ -547,6 +551,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
         Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Subdivision(_) => "a subdivision surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

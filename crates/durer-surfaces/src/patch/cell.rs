@@ -16,6 +16,8 @@ pub(super) const EDGE: f64 = durer_math::scale::pow2(-8);
 const FLAT: f64 = 0.25;
 /// No cell is halved more often than this along one parameter.
 const FINEST: u32 = 4;
+/// Bounds are not less than those of a patch of this size, in units.
+const SMALL: f64 = durer_math::scale::pow2(-38);
 /// The most points of a row or a column.
 pub(super) const MOST: usize = 16;
 
@@ -157,7 +159,9 @@ impl Cell {
         // Derivatives by the cell's own parameters; the net beyond is wider by its margins.
         let stretch = 1.0 / (1.0 + 2.0 * MARGIN);
         let degrees = [(size[0] - 1) as f64, (size[1] - 1) as f64];
-        let rounding = 16.0 * U * wide_reach.max(if rational { weights[0] } else { 0.0 });
+        // Also pays for what the points of very small patches, deep in a subdivision surface, are off
+        // by.
+        let rounding = 16.0 * U * wide_reach.max(if rational { weights[0] } else { 0.0 }).max(SMALL);
         let bound = |along: [usize; 2]| {
             let mut most = steepest(&far, size, along);
             let mut scale = 1.0;

@@ -58,6 +58,117 @@ impl Line {
     }
 }
 
+/// Points that are close together, as a line sees them: counted from one of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    /// The least and the greatest of each of both functions, and bounds on their errors.
+    pub(super) f: [[f64; 2]; 2],
+    pub(super) e: [f64; 2],
+    /// The line's parameters between which the points are, errors included.
+    pub(super) s: [f64; 2],
+    /// The same for points near their common plane, if they have one that the line is not along.
+    pub(super) plane: Option<[f64; 2]>,
+    /// The sign of `S_u x S_v . d` at the corners of the first four points, 0 if it differs.
+    pub(super) turn: i8,
+}
+
+impl Line {
+    /// Points relative to `base`, each rounded and off by `e_points` at most besides; the first four
+    /// are the corners of a face.
+    pub(super) fn sight(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> Sight {
+        let (mut o, mut o_err) = ([0.0; 3], [0.0; 3]);
+        for k in 0..3 {
+            let (near, lost) = two_diff(self.o[k], base[self.axes[k]]);
+            (o[k], o_err[k]) = (near, (self.o_err[k] + lost.abs()) * ROUNDED);
+        }
+        let reach = points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let e_net = (U * reach + e_points) * ROUNDED;
+        let size = |k: usize| o[k].abs() + reach;
+        let z_size = size(2);
+        let mut f = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let mut zs = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut e = [0.0; 2];
+        for p in points {
+            let z = p[self.axes[2]] - o[2];
+            zs = [zs[0].min(z), zs[1].max(z)];
+            for i in 0..2 {
+                let x = (-self.slope[i]).mul_add(z, p[self.axes[i]] - o[i]);
+                f[i] = [f[i][0].min(x), f[i][1].max(x)];
+            }
+        }
+        for i in 0..2 {
+            let slope = self.slope[i].abs();
+            let given = slope.mul_add(o_err[2], o_err[i]) + self.slope_err[i] * z_size;
+            let rounding = U * (2.0 * size(i) + 2.0 * slope * z_size);
+            e[i] = (e_net.mul_add(1.0 + slope, given) + rounding) * ROUNDED;
+        }
+        let known = (self.d_z.abs() - self.d_z_err).max(0.0);
+        let along = |z: f64, z_err: f64| {
+            let s = z / self.d_z;
+            (s, (s.abs().mul_add(self.d_z_err, z_err) / known + 2.0 * U * s.abs()) * ROUNDED)
+        };
+        let z_err = e_net + o_err[2] + U * z_size;
+        let ends = zs.map(|z| along(z, z_err));
+        let s = [
+            (ends[0].0 - ends[0].1).min(ends[1].0 - ends[1].1),
+            (ends[0].0 + ends[0].1).max(ends[1].0 + ends[1].1),
+        ];
+        // Signed areas of the corners, in differences of points: the line's place does not matter.
+        let flat = |p: &[f64; 3]| {
+            let z = p[self.axes[2]];
+            [0, 1].map(|i| (-self.slope[i]).mul_add(z, p[self.axes[i]]))
+        };
+        let mut turns = [0_i8; 4];
+        for k in 0..4 {
+            let [a, b, c] = [(k + 3) % 4, k, (k + 1) % 4].map(|i| flat(&points[i]));
+            let det = (c[0] - b[0]) * (a[1] - b[1]) - (c[1] - b[1]) * (a[0] - b[0]);
+            let det = det * self.d_z;
+            turns[k] = i8::from(det > 0.0) - i8::from(det < 0.0);
+        }
+        let turn = if turns.iter().all(|t| *t == turns[0]) { turns[0] } else { 0 };
+        let plane = if turn == 0 { None } else { self.plane(points, (o, o_err), e_net) };
+        Sight { f, e, s, plane, turn }
+    }
+
+    /// Where the line passes between the planes along both diagonals of the first four points that
+    /// hold all points between them.
+    fn plane(&self, points: &[[f64; 3]], (o, o_err): ([f64; 3], [f64; 3]), e_net: f64) -> Option<[f64; 2]> {
+        let turned = |p: &[f64; 3]| self.axes.map(|axis| p[axis]);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| turned(&points[k]));
+        let less = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| p[k] - q[k]);
+        let (p, q) = (less(c, a), less(d, b));
+        let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+        let most = n.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let n = n.map(|x| x / most);
+        let dot = |a: &[f64; 3]| (n[0] * a[0], n[1] * a[1], n[2] * a[2]);
+        let sum = |(x, y, z): (f64, f64, f64)| (x + y + z, (x.abs() + y.abs() + z.abs()) * (4.0 * U));
+        let mut h = [f64::INFINITY, f64::NEG_INFINITY];
+        for point in points {
+            let (height, err) = sum(dot(&turned(point)));
+            h = [h[0].min(height - err), h[1].max(height + err)];
+        }
+        let (start, start_err) = sum(dot(&o));
+        let err = start_err + n.iter().zip(o_err).map(|(n, e)| n.abs() * (e + e_net)).sum::<f64>();
+        // The direction is d_z times (slopes, 1).
+        let (speed, speed_err) = sum(dot(&[self.slope[0], self.slope[1], 1.0]));
+        let speed_err = speed_err + n[0].abs() * self.slope_err[0] + n[1].abs() * self.slope_err[1];
+        let known = speed.abs() - speed_err;
+        if !(known > 1.0 / 1024.0) {
+            return None;
+        }
+        let z = h.map(|h| (h - start) / speed);
+        let off = |z: f64| ((err + z.abs() * speed_err) / known + 4.0 * U * z.abs()) * ROUNDED;
+        let along = |z: f64, z_err: f64| {
+            let (s, known) = (z / self.d_z, (self.d_z.abs() - self.d_z_err).max(0.0));
+            (s, (s.abs().mul_add(self.d_z_err, z_err) / known + 2.0 * U * s.abs()) * ROUNDED)
+        };
+        let ends = z.map(|z| along(z, off(z)));
+        let low = (ends[0].0 - ends[0].1).min(ends[1].0 - ends[1].1);
+        let high = (ends[0].0 + ends[0].1).max(ends[1].0 + ends[1].1);
+        (low <= high).then_some([low, high])
+    }
+}
+
 /// A line as a cell sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {

@@ -35,6 +35,7 @@ mod nurbs;
 mod point;
 mod shell;
 mod subdivide;
+mod subdivision;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
@@ -46,6 +47,7 @@ use shell::Shell;
 use std::sync::Arc;
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
+pub use subdivision::{Boundary, Scheme, SubdivisionData, SubdivisionError, SubdivisionSurface};
 
 /// Why a [`BezierPatch`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -170,27 +172,24 @@ impl BezierPatch {
             || self.shell.roots(ray, sink),
         );
     }
+}
 
-    /// Texture coordinates at parameters, and the slopes by them of a surface with these slopes by
-    /// the parameters.
-    fn mapped(&self, point: &mut SurfacePoint, need: Need) {
-        if self.corners == SQUARE {
-            return;
-        }
-        let ([u, v], [a, b, c, d]) = (point.uv, self.corners);
-        let mut jacobian = [[0.0; 2]; 2];
-        for k in 0..2 {
-            let (low, high) = (a[k] + u * (b[k] - a[k]), d[k] + u * (c[k] - d[k]));
-            point.uv[k] = low + v * (high - low);
-            jacobian[k] = [(b[k] - a[k]) + v * ((c[k] - d[k]) - (b[k] - a[k])), high - low];
-        }
-        let [[p, q], [r, s]] = jacobian;
-        let det = p * s - q * r;
-        if need.contains(Need::DERIVATIVES) && det != 0.0 {
-            let (du, dv, by) = (point.dpdu, point.dpdv, 1.0 / det);
-            point.dpdu = (du * s - dv * r) * by;
-            point.dpdv = (dv * p - du * q) * by;
-        }
+/// Texture coordinates that are given at the corners of a patch and bilinear between them, and the
+/// slopes by them of a surface with these slopes by the parameters.
+fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Need) {
+    let ([u, v], [a, b, c, d]) = (point.uv, corners);
+    let mut jacobian = [[0.0; 2]; 2];
+    for k in 0..2 {
+        let (low, high) = (a[k] + u * (b[k] - a[k]), d[k] + u * (c[k] - d[k]));
+        point.uv[k] = low + v * (high - low);
+        jacobian[k] = [(b[k] - a[k]) + v * ((c[k] - d[k]) - (b[k] - a[k])), high - low];
+    }
+    let [[p, q], [r, s]] = jacobian;
+    let det = p * s - q * r;
+    if need.contains(Need::DERIVATIVES) && det != 0.0 {
+        let (du, dv, by) = (point.dpdu, point.dpdv, 1.0 / det);
+        point.dpdu = (du * s - dv * r) * by;
+        point.dpdv = (dv * p - du * q) * by;
     }
 }
 
@@ -251,7 +250,9 @@ impl Surface for BezierPatch {
             #[inline(always)]
             || self.shell.point(ray, root),
         );
-        self.mapped(&mut point, need);
+        if self.corners != SQUARE {
+            map_uv(&self.corners, &mut point, need);
+        }
         point
     }
 

@@ -135,6 +135,78 @@ fn powers(n: usize, t: f64) -> [[f64; MOST]; 3] {
     [b, d, dd]
 }
 
+impl Jet {
+    /// A point with slopes, and nothing known of its curvature.
+    pub(super) fn flat(p: Vec3, pu: Vec3, pv: Vec3) -> Self {
+        let unknown = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        Self { p, pu, pv, puu: unknown, puv: unknown, pvv: unknown }
+    }
+
+    /// The same, of a surface that `base` is added to, by parameters that are `width` as wide.
+    pub(super) fn moved(self, base: Vec3, width: f64) -> Self {
+        let (by, by2) = (1.0 / width, 1.0 / (width * width));
+        Self {
+            p: base + self.p,
+            pu: self.pu * by,
+            pv: self.pv * by,
+            puu: self.puu * by2,
+            puv: self.puv * by2,
+            pvv: self.pvv * by2,
+        }
+    }
+}
+
+/// The point of a root where a surface is `jet`, in units of `2^scale` about a centre: with its
+/// bounds, its normal, and its slopes along the parameters. The normal is that of a jet there or
+/// close by; `eta` is what the evaluation is off by.
+#[inline(always)]
+pub(super) fn located(
+    (centre, scale): (Point3, i32),
+    (ray, root): (&LocalRay<'_>, &Root),
+    jet: &Jet,
+    normal: Option<(Vec3, Jet)>,
+    eta: f64,
+) -> SurfacePoint {
+    let at = ray.recentre(centre, scale).sharp(1.0);
+    let s = root.s;
+    let q = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
+    let e_q = at.o_err + at.d_err * s.abs() + q.abs() * U;
+    let y = jet.p;
+
+    // In the surface's own frame; the rounding is known exactly.
+    let axis = |c: f64, y: f64| two_sum(c, scale2(y, scale));
+    let ((px, lx), (py, ly), (pz, lz)) = (axis(centre.x, y.x), axis(centre.y, y.y), axis(centre.z, y.z));
+    let p = Point3::new(px, py, pz);
+    let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
+    // The exact crossing is on the ray, within its bracket.
+    let width = at.width(root.lo, root.hi);
+    let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
+
+    let (n, tangent) = match normal {
+        Some((n, near)) => (n, Some(near)),
+        None => (at.d * (-1.0 / at.d.length()), None),
+    };
+    let bend = tangent.map_or(f64::INFINITY, |jet| jet.bend(n));
+    let tau = scale2(p.to_vec().max_abs(), -scale) * (6.0 * U) + TINY;
+    let eta = lost.x + lost.y + lost.z + eta;
+    let clear = CLEAR * (1.0 + y.max_abs());
+    let off = 2.0 * eta + clear + bend.min(1.0 / tau) * tau * tau;
+    let back = |x: f64| scale2(x, scale);
+    let is_tip = (bend * off).is_nan() || bend * off > 1.0 / 64.0;
+    let mut point = SurfacePoint::new(
+        p,
+        dp.map(|x| back(x) + f64::MIN_POSITIVE),
+        back(off) + least_step(p),
+        n.to_normal(),
+    );
+    (point.bend, point.slack) =
+        if is_tip { (f64::INFINITY, back(off / 64.0)) } else { (scale2(bend, -scale), 0.0) };
+    point.uv = root.tag;
+    point.dpdu = jet.pu.map(back);
+    point.dpdv = jet.pv.map(back);
+    point
+}
+
 impl Shell {
     /// The point of a root: with its bounds and its normal, and slopes along the parameters.
     #[inline(always)]
@@ -142,48 +214,11 @@ impl Shell {
         let Some(face) = self.faces.get(root.face as usize) else {
             return SurfacePoint::unknown(self.centre);
         };
-        let at = ray.recentre(self.centre, self.scale).sharp(1.0);
-        let s = root.s;
-        let q = Vec3::new(s.mul_add(at.d.x, at.o.x), s.mul_add(at.d.y, at.o.y), s.mul_add(at.d.z, at.o.z));
-        let e_q = at.o_err + at.d_err * s.abs() + q.abs() * U;
         let jet = face.jet(root.tag);
-        let y = jet.p;
-
-        // In the surface's own frame; the rounding is known exactly.
-        let axis = |c: f64, y: f64| two_sum(c, scale2(y, self.scale));
-        let ((px, lx), (py, ly), (pz, lz)) =
-            (axis(self.centre.x, y.x), axis(self.centre.y, y.y), axis(self.centre.z, y.z));
-        let p = Point3::new(px, py, pz);
-        let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -self.scale) + TINY);
-        // The exact crossing is on the ray, within its bracket.
-        let width = at.width(root.lo, root.hi);
-        let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
-
-        let (n, tangent) = match face.normal(root.tag, &jet) {
-            Some((n, near)) => (n, Some(near)),
-            None => (at.d * (-1.0 / at.d.length()), None),
-        };
-        let bend = tangent.map_or(f64::INFINITY, |jet| jet.bend(n));
-        let tau = scale2(p.to_vec().max_abs(), -self.scale) * (6.0 * U) + TINY;
         // The evaluation, and the rounding of the control points.
         let (light, size) = self.lightest(face);
-        let eta = lost.x + lost.y + lost.z + (2.0 * sums(face.size) + 8.0) * U * size / light;
-        let clear = CLEAR * (1.0 + y.max_abs());
-        let off = 2.0 * eta + clear + bend.min(1.0 / tau) * tau * tau;
-        let back = |x: f64| scale2(x, self.scale);
-        let is_tip = (bend * off).is_nan() || bend * off > 1.0 / 64.0;
-        let mut point = SurfacePoint::new(
-            p,
-            dp.map(|x| back(x) + f64::MIN_POSITIVE),
-            back(off) + least_step(p),
-            n.to_normal(),
-        );
-        (point.bend, point.slack) =
-            if is_tip { (f64::INFINITY, back(off / 64.0)) } else { (scale2(bend, -self.scale), 0.0) };
-        point.uv = root.tag;
-        point.dpdu = jet.pu.map(back);
-        point.dpdv = jet.pv.map(back);
-        point
+        let eta = (2.0 * sums(face.size) + 8.0) * U * size / light;
+        located((self.centre, self.scale), (ray, root), &jet, face.normal(root.tag, &jet), eta)
     }
 
     /// The least weight of a patch, and its largest coordinate in units, each at least 1 for the

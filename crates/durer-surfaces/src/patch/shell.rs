@@ -12,7 +12,7 @@ use durer_math::{Aabb, Dd, Point3, U, Vec3};
 
 /// Cells farther than this from the ray's range, in units, are not looked at: far more than any
 /// bracket of a proven crossing is wide.
-const ROOM: f64 = 1.0 / 1024.0;
+pub(super) const ROOM: f64 = 1.0 / 1024.0;
 
 /// A patch as it is resolved: its control points in units, and the patch's own rounding of them.
 #[derive(Clone, Debug)]
@@ -143,13 +143,13 @@ impl Shell {
 
 /// Whether the box of `a` lies where `b` is the only crossing.
 #[inline(always)]
-fn is_held(a: &Found, b: &Found) -> bool {
+pub(super) fn is_held(a: &Found, b: &Found) -> bool {
     (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() + a.radius[k] < b.alone[k])
 }
 
 /// Whether two boxes have a point in common.
 #[inline(always)]
-fn overlap(a: &Found, b: &Found) -> bool {
+pub(super) fn overlap(a: &Found, b: &Found) -> bool {
     (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() <= a.radius[k] + b.radius[k])
 }
 
@@ -227,7 +227,7 @@ fn join_all(found: &mut Vec<Found>) {
 }
 
 /// A box that holds two others, in which nothing is proven.
-fn joined(a: &Found, b: &Found) -> Found {
+pub(super) fn joined(a: &Found, b: &Found) -> Found {
     let (mut out, wider) = (*a, 1.0 + 4.0 * U);
     // Parameters of different patches do not mix.
     for k in 0..if a.face == b.face { 2 } else { 0 } {
@@ -244,7 +244,7 @@ fn joined(a: &Found, b: &Found) -> Found {
 
 /// A crossing in the caller's parameter; `None` if it is not in the ray's range.
 #[inline(always)]
-fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
+pub(super) fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
     let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
     match at.admits(lo, hi) {
         Some(false) => return None,

@@ -1,0 +1,435 @@
+//! The limit surface of a control mesh: patches, and corners that become patches only when a ray
+//! comes near.
+//!
+//! A face next to an extraordinary vertex is refined to three patches and a smaller corner, again and
+//! again. Some steps are taken ahead; what is left is refined for each ray that meets the convex hull
+//! of its points, by the same sums, so that no hit depends on what was taken ahead. When the hull is as
+//! small as the errors of the ray, it is one candidate, and joined with what is found beside it.
+//!
+//! Coordinates are held in double-double, from the control points on, which are exact. A step
+//! makes at most 35 roundings of `2^-106` of the size of the surface, and no step makes the errors of
+//! the one before larger, because its weights are not negative and have the sum 1. After 120 steps
+//! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
+
+use super::plan::{Plan, Plans, Wheel, bezier, refine};
+use super::topology::{Adjacency, Topology};
+use crate::blob::{Along, Inner, Tree};
+use crate::mesh::Sorted;
+use crate::patch::cell::{Cell, cells};
+use crate::patch::line::{Found, Line, View};
+use crate::patch::net::Net;
+use crate::patch::shell::{Face, ROOM, is_held, joined, overlap, root};
+use crate::{CentredRay, LocalRay, Sink};
+use core::cell::Cell as Slot;
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
+
+/// The error of points besides their rounding to f64, in units.
+pub(super) const E_POINTS: f64 = durer_math::scale::pow2(-90);
+/// Functions that are less than this many errors all over a hull are not told from zero.
+const NOISE: f64 = 8.0;
+/// No corner is refined more often.
+pub(super) const MOST_STEPS: u32 = 120;
+/// Steps that are taken ahead at most.
+pub(super) const AHEAD: u32 = 6;
+/// Fewer steps are taken ahead if there would be more patches than this.
+const MANY: usize = 1 << 18;
+
+/// A part of a quadrilateral in its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub(super) quad: u32,
+    pub(super) from: [f64; 2],
+    pub(super) width: f64,
+}
+
+impl Place {
+    pub(super) fn quarter(&self, k: usize) -> Self {
+        let width = 0.5 * self.width;
+        let [a, b] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][k];
+        let from = [a * width + self.from[0], b * width + self.from[1]];
+        Self { quad: self.quad, from, width }
+    }
+
+    fn outer(&self, uv: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| uv[k].clamp(0.0, 1.0).mul_add(self.width, self.from[k]))
+    }
+}
+
+/// A face of some step with the points that it depends on, in units.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) plan: u32,
+    pub(super) place: Place,
+    pub(super) depth: u32,
+    pub(super) points: Box<[[Dd; 3]]>,
+}
+
+impl Node {
+    /// Its points relative to the first, which is rounded.
+    pub(super) fn relative(&self) -> ([f64; 3], Vec<[f64; 3]>) {
+        let base = self.points[0].map(Dd::to_f64);
+        let less = |p: &[Dd; 3]| [0, 1, 2].map(|c| (p[c] - Dd::from(base[c])).to_f64());
+        (base, self.points.iter().map(less).collect())
+    }
+
+    /// The four faces of the next step; `None` if it is a patch.
+    pub(super) fn quarters(&self, plans: &[Plan]) -> Option<[Node; 4]> {
+        let Plan::Split { stencils, quarters, .. } = &plans[self.plan as usize] else { return None };
+        let finer = refine(stencils, &self.points);
+        Some([0, 1, 2, 3].map(|k: usize| Node {
+            plan: quarters[k].plan,
+            place: self.place.quarter(k),
+            depth: self.depth + 1,
+            points: quarters[k].points.iter().map(|p| finer[*p as usize]).collect(),
+        }))
+    }
+
+    /// The patch that it is, if it is one.
+    pub(super) fn net(&self, plans: &[Plan]) -> Option<Net> {
+        match &plans[self.plan as usize] {
+            Plan::Regular(net) => Some(bezier(net, &self.points)),
+            Plan::Split { .. } => None,
+        }
+    }
+
+    /// The smooth vertices at its corners, those where patches do not end first.
+    pub(super) fn wheel<'a>(&self, plans: &'a [Plan]) -> Option<&'a Wheel> {
+        let Plan::Split { wheels, .. } = &plans[self.plan as usize] else { return None };
+        let wheels = || wheels.iter().flatten();
+        wheels().find(|w| w.ends.len() != 4).or_else(|| wheels().next())
+    }
+}
+
+/// A patch as it is resolved: its net relative to `base`.
+#[derive(Clone, Debug)]
+pub(super) struct Leaf {
+    pub(super) place: Place,
+    pub(super) base: [f64; 3],
+    pub(super) face: Face,
+}
+
+impl Leaf {
+    pub(super) fn new(place: Place, net: &Net) -> Self {
+        let base = [0, 1, 2].map(|c| net.points[5][c].to_f64());
+        Self { place, base, face: Face { size: net.size, net: net.relative(base).into() } }
+    }
+}
+
+/// What a quadrilateral or a part of it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Spot {
+    Leaf(u32),
+    Tail(u32),
+    /// The first of four.
+    Split(u32),
+}
+
+/// What the tree holds.
+#[derive(Clone, Copy, Debug)]
+enum Item {
+    Cell(u32),
+    Tail(u32),
+}
+
+/// The limit surface in units about its centre.
+#[derive(Clone, Debug)]
+pub(super) struct Limit {
+    pub(super) bounds: Aabb,
+    pub(super) centre: Point3,
+    pub(super) scale: i32,
+    /// The radius of a ball about the centre that holds everything.
+    pub(super) reach: f64,
+    pub(super) plans: Box<[Plan]>,
+    pub(super) leaves: Box<[Leaf]>,
+    pub(super) tails: Box<[Node]>,
+    /// First one for each quadrilateral.
+    pub(super) spots: Box<[Spot]>,
+    cells: Box<[Cell]>,
+    items: Box<[Item]>,
+    tree: Tree,
+    /// -1 if normals point into the solid.
+    pub(super) outward: i8,
+}
+
+/// A patch that was made for one ray, or a corner that was a candidate.
+#[derive(Clone, Copy, Debug)]
+struct Extra {
+    place: Place,
+    /// How far along the line the same crossing may be found beside it; 0 for a patch.
+    room: f64,
+}
+
+/// Lists of one ray, kept by the thread so that rays do not allocate.
+#[derive(Default)]
+struct Lists {
+    nodes: Vec<u32>,
+    found: Vec<Found>,
+    extra: Vec<Extra>,
+    cells: Vec<Cell>,
+}
+
+thread_local! {
+    static LISTS: Slot<Lists> = Slot::default();
+}
+
+#[inline(never)]
+fn meet_cell(line: &Line, cell: &Cell, found: &mut Vec<Found>) {
+    Isa::detect().run(
+        #[inline(always)]
+        || View::new(line, cell, false).meet(found),
+    );
+}
+
+/// A box that holds points.
+fn hull(points: &[[Dd; 3]]) -> Aabb {
+    Aabb::from_points(points.iter().map(|p| Vec3::from(p.map(Dd::to_f64)).to_point()))
+}
+
+impl Limit {
+    /// The limit surface of quadrilaterals, without those that are holes; `None` only for a mesh that
+    /// is not valid.
+    pub(super) fn new(mesh: &Topology, points: &[[Dd; 3]], is_hole: &[bool], frame: (Point3, i32, f64), most: u32) -> Option<Self> {
+        let (centre, scale, reach) = frame;
+        let adjacency = Adjacency::new(mesh);
+        let mut plans = Plans::default();
+        let mut roots = Vec::new();
+        for quad in 0..mesh.faces.len() {
+            if is_hole[quad] {
+                continue;
+            }
+            let part = adjacency.around(quad)?;
+            let place = Place { quad: quad as u32, from: [0.0; 2], width: 1.0 };
+            let points = part.points.iter().map(|p| points[*p as usize]).collect();
+            roots.push(Node { plan: plans.of(&part.mesh)?, place, depth: 0, points });
+        }
+        let plans = plans.all;
+        let corners = roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
+        let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
+        let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
+        let (mut leaves, mut tails) = (Vec::new(), Vec::new());
+        let mut all = Vec::new();
+        let mut open: Vec<(usize, Node)> = roots.into_iter().map(|node| (node.place.quad as usize, node)).collect();
+        open.reverse();
+        while let Some((spot, node)) = open.pop() {
+            if let Some(net) = node.net(&plans) {
+                spots[spot] = Spot::Leaf(leaves.len() as u32);
+                cells(&net, false, leaves.len() as u32, &mut all);
+                leaves.push(Leaf::new(node.place, &net));
+            } else if node.depth < ahead && let Some(quarters) = node.quarters(&plans) {
+                let first = spots.len();
+                spots[spot] = Spot::Split(first as u32);
+                spots.extend([Spot::Tail(0); 4]);
+                open.extend(quarters.into_iter().enumerate().rev().map(|(k, node)| (first + k, node)));
+            } else {
+                spots[spot] = Spot::Tail(tails.len() as u32);
+                tails.push(node);
+            }
+        }
+        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
+        let mut boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
+        boxes.extend(tails.iter().map(|node| hull(&node.points).expanded(room)));
+        let (tree, order) = Tree::new(&boxes);
+        let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)).expanded(room);
+        let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
+        let bounds = Aabb::new(back(units.min), back(units.max));
+        let bounds = bounds.expanded(Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude()));
+        let count = all.len() as u32;
+        let item = |i: &u32| if *i < count { Item::Cell(*i) } else { Item::Tail(*i - count) };
+        let items = order.iter().map(item).collect();
+        Some(Self {
+            bounds,
+            centre,
+            scale,
+            reach,
+            plans: plans.into(),
+            leaves: leaves.into(),
+            tails: tails.into(),
+            spots: spots.into(),
+            cells: all.into(),
+            items,
+            tree,
+            outward: 1,
+        })
+    }
+
+    /// How many patches and corners there are ahead of any ray.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [self.leaves.len(), self.tails.len()]
+    }
+
+    /// Passes all crossings to `sink`, ascending.
+    #[inline(always)]
+    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        let at = ray.recentre(self.centre, self.scale).sharp(1.0);
+        let mut lists = LISTS.take();
+        self.meet(&at, &mut lists, sink.limit());
+        if !lists.found.is_empty() {
+            self.join(&mut lists);
+            let mut roots = Sorted::new();
+            for crossing in &lists.found {
+                let place = self.place(crossing, &lists.extra);
+                let mut crossing = *crossing;
+                crossing.uv = place.outer(crossing.uv);
+                crossing.face = place.quad;
+                crossing.sign *= self.outward;
+                crossing.turn *= self.outward;
+                if let Some(root) = root(&at, &crossing) {
+                    roots.push(root);
+                }
+            }
+            roots.pour(sink);
+        }
+        LISTS.set(lists);
+    }
+
+    fn place(&self, found: &Found, extra: &[Extra]) -> Place {
+        let k = found.face as usize;
+        self.leaves.get(k).map_or_else(|| extra[k - self.leaves.len()].place, |leaf| leaf.place)
+    }
+
+    #[inline(always)]
+    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, limit: f64) {
+        let along = Along::new(at);
+        let ray = at.local();
+        let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
+        let window = [begin - ROOM, end + ROOM];
+        let line = Line::new(at);
+        lists.nodes.clear();
+        lists.found.clear();
+        lists.extra.clear();
+        lists.nodes.push(0);
+        while let Some(node) = lists.nodes.pop() {
+            let Some((near, far)) = self.tree.entry(node, &along) else { continue };
+            if far < window[0] || near > window[1] {
+                continue;
+            }
+            match self.tree.inner(node) {
+                Inner::Nodes(a, b) => lists.nodes.extend([a, b]),
+                Inner::Leaf(from, to) => {
+                    for item in &self.items[from..to] {
+                        match *item {
+                            Item::Cell(k) => meet_cell(&line, &self.cells[k as usize], &mut lists.found),
+                            Item::Tail(k) => self.unfold(&line, &self.tails[k as usize], window, lists),
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// What a line meets of a corner.
+    #[inline(never)]
+    fn unfold(&self, line: &Line, tail: &Node, window: [f64; 2], lists: &mut Lists) {
+        let mut open = vec![tail.clone()];
+        while let Some(node) = open.pop() {
+            let (base, points) = node.relative();
+            let sight = line.sight(base, &points, E_POINTS);
+            let is_clear = (0..2).any(|i| sight.f[i][0] > sight.e[i] || sight.f[i][1] < -sight.e[i]);
+            if is_clear || sight.s[1] < window[0] || sight.s[0] > window[1] {
+                continue;
+            }
+            let number = (self.leaves.len() + lists.extra.len()) as u32;
+            if let Some(net) = node.net(&self.plans) {
+                lists.extra.push(Extra { place: node.place, room: 0.0 });
+                lists.cells.clear();
+                cells(&net, false, number, &mut lists.cells);
+                for cell in &lists.cells {
+                    meet_cell(line, cell, &mut lists.found);
+                }
+                continue;
+            }
+            let is_noise = (0..2).all(|i| sight.f[i][0].abs().max(sight.f[i][1].abs()) <= NOISE * sight.e[i]);
+            if !is_noise && node.depth < MOST_STEPS && let Some(quarters) = node.quarters(&self.plans) {
+                open.extend(quarters.into_iter().rev());
+                continue;
+            }
+            // All of it is as near as the ray is known.
+            let [low, high] = sight.plane.unwrap_or(sight.s);
+            lists.extra.push(Extra { place: node.place, room: sight.s[1] - sight.s[0] });
+            lists.found.push(Found {
+                face: number,
+                uv: [0.5; 2],
+                radius: [0.5; 2],
+                alone: [0.0; 2],
+                s: 0.5 * (low + high),
+                s_err: 0.5 * (high - low) * (1.0 + 4.0 * U) + U * (low.abs() + high.abs()),
+                sign: 0,
+                turn: sight.turn,
+            });
+        }
+    }
+
+    /// How far along the line the same crossing may be found beside this one.
+    fn room(&self, found: &Found, extra: &[Extra]) -> f64 {
+        extra.get((found.face as usize).wrapping_sub(self.leaves.len())).map_or(0.0, |extra| extra.room)
+    }
+
+    /// Whether two may be the same crossing.
+    ///
+    /// Within a patch: boxes that touch, or one where the other's proof says that it is alone. In
+    /// different ones: on an edge, or in a corner beside it, at the same place of the line and in the
+    /// same direction; what has no direction goes with any.
+    fn is_same(&self, a: &Found, b: &Found, extra: &[Extra]) -> bool {
+        if a.face == b.face {
+            return is_held(a, b) || is_held(b, a) || overlap(a, b);
+        }
+        let rooms = [self.room(a, extra), self.room(b, extra)];
+        let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
+        // One of them may be in the other's patch as well; that other one may surely be in its own.
+        let may_be = rooms.iter().any(|r| *r > 0.0) || on_edge(a) || on_edge(b);
+        let is_alike = a.turn == b.turn || a.turn == 0 || b.turn == 0;
+        may_be && is_alike && (a.s - b.s).abs() <= a.s_err + b.s_err + rooms[0] + rooms[1]
+    }
+
+    /// Joins what is the same crossing.
+    fn join(&self, lists: &mut Lists) {
+        let Lists { found, extra, .. } = lists;
+        if found.len() < 2 {
+            return;
+        }
+        // Proven ones first; an order that does not depend on when patches were made.
+        let by_place = |f: &Found| {
+            let place = self.place(f, extra);
+            (place.quad, place.from.map(f64::to_bits), f.uv.map(f64::to_bits))
+        };
+        found.sort_by(|a, b| {
+            let first = (a.sign == 0).cmp(&(b.sign == 0)).then((a.turn == 0).cmp(&(b.turn == 0)));
+            first.then(a.s.total_cmp(&b.s)).then_with(|| by_place(a).cmp(&by_place(b)))
+        });
+        let mut i = 0;
+        while i < found.len() {
+            let Some(j) = (i + 1..found.len()).find(|&j| self.is_same(&found[i], &found[j], extra)) else {
+                i += 1;
+                continue;
+            };
+            let (a, b) = (found[i], found[j]);
+            let is_same_patch = a.face == b.face;
+            let is_known = !is_same_patch || is_held(&a, &b) || is_held(&b, &a);
+            if a.sign == 0 || !is_known {
+                // Nothing says whether that is one crossing or two.
+                let turn = if a.turn == 0 { b.turn } else { a.turn };
+                found[i] = Found { turn, ..joined(&a, &b) };
+                if is_same_patch && a.turn != b.turn {
+                    found[i].turn = 0;
+                }
+            } else if b.sign != 0 && b.s_err < a.s_err {
+                // Of two proofs the sharper one is kept.
+                found[i] = b;
+            }
+            // Not by swapping: the order stays.
+            found.remove(j);
+            // What was apart from it may touch it now.
+            i = 0;
+        }
+    }
+
+    /// The frame of points: their centre, the exponent of the unit, and how far they reach.
+    pub(super) fn frame(points: impl Iterator<Item = Point3>) -> (Point3, i32, f64) {
+        let hull = Aabb::from_points(points);
+        let centre = hull.centre();
+        let reach = hull.reach_from(centre);
+        (centre, exponent(reach) + 1, reach)
+    }
+}
+

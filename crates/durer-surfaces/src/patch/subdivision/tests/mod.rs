@@ -1,0 +1,284 @@
+//! Tests of subdivision surfaces.
+
+mod meshes;
+mod naive;
+
+use super::*;
+use crate::laws::{TestRng, all_roots, drawn, report};
+use crate::{All, Nurbs, NurbsData, RootKind};
+use durer_math::{Ray, U, Vec3};
+use meshes::*;
+use naive::Naive;
+
+fn surface(data: &SubdivisionData) -> SubdivisionSurface {
+    SubdivisionSurface::new(data.clone()).unwrap()
+}
+
+/// The limits of smooth inner vertices, by the closed form: position and normal.
+fn limits(data: &SubdivisionData) -> Vec<Option<(Vec3, Vec3)>> {
+    let mut naive = Naive::new(data);
+    // The masks are those of quadrilaterals.
+    let count = data.vertices.len();
+    if data.faces.iter().any(|f| f.len() != 4) {
+        naive = naive.refined();
+    }
+    (0..count as u32).map(|v| naive.limit(v)).collect()
+}
+
+/// Whether crossings of a line with a closed body enter and leave it in turn.
+fn alternate(roots: &[Root]) -> bool {
+    let signs: Vec<i8> = roots.iter().map(|r| r.sign).filter(|s| *s != 0).collect();
+    signs.first() == Some(&-1) && signs.len() % 2 == 0 && signs.windows(2).all(|w| w[0] != w[1])
+}
+
+#[test]
+fn a_regular_net_is_a_b_spline() {
+    let mut dice = crate::laws::dice(1, 0);
+    for closed in [false, true] {
+        let n = 6;
+        let data = grid(n, n, closed, |i, j| {
+            Vec3::new(i as f64, j as f64, 0.0) + dice.vector() * 0.4
+        });
+        let it = surface(&data);
+        let points: Vec<_> = data.vertices.iter().map(|p| [p.x, p.y, p.z, 1.0]).collect();
+        // Without ends the B-spline is that of the faces that have all neighbours.
+        let knots = [0, 1].map(|_| (0..n + 4).map(|i| i as f64 - 3.0).collect());
+        let spline = NurbsData { degree: [3, 3], size: [n, n], points, knots, ..NurbsData::default() };
+        let spline = Nurbs::new(spline).unwrap();
+        let mut met = 0;
+        for _ in 0..400 {
+            let at = Vec3::new(dice.between(1.2, n as f64 - 2.2), dice.between(1.2, n as f64 - 2.2), 0.0);
+            let direction = dice.vector() + Vec3::new(0.0, 0.0, 2.0);
+            let ray = Ray::new((at - direction * 4.0).to_point(), direction);
+            let (a, b) = (all_roots(&it, &ray), all_roots(&spline, &ray));
+            let inner: Vec<_> = a.iter().filter(|r| {
+                let face = &data.faces[r.face as usize];
+                face.iter().all(|v| { let (i, j) = (*v as usize % n, *v as usize / n); (1..n - 1).contains(&i) && (1..n - 1).contains(&j) })
+            }).collect();
+            assert_eq!(inner.len(), b.len(), "{ray:?} {a:?} {b:?}");
+            for (a, b) in inner.iter().zip(&b) {
+                assert!(a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign, "{a:?} {b:?}");
+                met += 1;
+            }
+        }
+        assert!(met > 300, "{met}");
+    }
+}
+
+#[test]
+fn vertices_have_the_limits_of_the_closed_form() {
+    for (name, data) in closed_meshes() {
+        let it = surface(&data);
+        let (mut worst, mut worst_n) = (0.0_f64, 0.0_f64);
+        for (v, limit) in limits(&data).iter().enumerate() {
+            let Some((p, n)) = limit else { continue };
+            let ray = Ray::new((*p + *n * 0.5).to_point(), *n * -1.0);
+            let roots = all_roots(&it, &ray);
+            let Some(root) = roots.iter().min_by(|a, b| (a.t - 0.5).abs().total_cmp(&(b.t - 0.5).abs())) else {
+                panic!("{name}: vertex {v} is not met")
+            };
+            let local = LocalRay::new(&ray);
+            let point = it.resolve(&local, root, Need::ALL);
+            let size = it.bounds().magnitude();
+            worst = worst.max((point.p.to_vec() - *p).length() / (U * size));
+            worst_n = worst_n.max((point.ng.to_vec() - *n).length() / U);
+            assert!((root.lo..=root.hi).contains(&0.5) || (root.t - 0.5).abs() < 64.0 * U * size, "{name} {v} {root:?}");
+        }
+        println!("{name}: {:?} off by {worst} ulp, normal {worst_n}", it.counts());
+        assert!(worst < 64.0, "{name} {worst}");
+        assert!(worst_n < 1e6, "{name} {worst_n}");
+    }
+}
+
+#[test]
+fn rays_from_inside_leave_closed_meshes_once_in_turn() {
+    let mut rays = 0_u64;
+    let mut unsure = 0_u64;
+    for (name, data) in closed_meshes() {
+        let it = surface(&data);
+        let limits = limits(&data);
+        for case in drawn(400) {
+            let mut dice = crate::laws::dice(3, case);
+            let inside = inside(&name, &mut dice);
+            let k = dice.below(limits.len() as u64) as usize;
+            let aim = match (dice.below(4), limits[k]) {
+                (0 | 1, Some((p, _))) => p - inside,
+                (2, Some((p, _))) => p + dice.vector() * dice.scale(-50, -10) - inside,
+                _ => dice.vector(),
+            };
+            if aim == Vec3::ZERO {
+                continue;
+            }
+            let ray = Ray::new(inside.to_point(), aim);
+            let roots = all_roots(&it, &ray);
+            let signs: Vec<i8> = roots.iter().map(|r| r.sign).filter(|s| *s != 0).collect();
+            let fine = signs.first() == Some(&1) && signs.last() == Some(&1) && signs.windows(2).all(|w| w[0] != w[1]);
+            assert!(fine, "{name} {case}: {ray:?}\n{roots:#?}");
+            let line = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let roots = all_roots(&it, &line);
+            assert!(alternate(&roots), "{name} {case}: {line:?}\n{roots:#?}");
+            unsure += roots.iter().filter(|r| r.kind != RootKind::Simple).count() as u64;
+            rays += 2;
+        }
+        println!("{name}: {rays} rays so far, {unsure} crossings not proven");
+    }
+    report(rays);
+}
+
+#[test]
+fn tessellations_come_nearer_by_four() {
+    for (name, data) in all_meshes() {
+        let it = surface(&data);
+        let mut naive = Naive::new(&data);
+        let size = it.bounds().magnitude();
+        let mut before = f64::INFINITY;
+        for level in 1..=5 {
+            naive = naive.refined();
+            let far = naive.distance(&it) / size;
+            println!("{name} {level}: {far:.3e}");
+            // Next to vertices of many edges faces shrink by less than a half.
+            let most = if name.starts_with("pyramid") || name.starts_with("prism") { 0.8 } else { 0.3 };
+            if level > 3 {
+                assert!(far < before * most, "{name} {level}: {far} after {before}");
+            }
+            before = far;
+        }
+        assert!(before < 2e-3, "{name} {before}");
+    }
+}
+
+#[test]
+fn what_is_made_ahead_changes_no_bit() {
+    for (name, data) in all_meshes() {
+        let it = surface(&data);
+        let less = it.remade(1);
+        let mut dice = crate::laws::dice(5, 0);
+        let limits = limits(&data);
+        for _ in 0..300 {
+            let k = dice.below(limits.len() as u64) as usize;
+            let target = match limits[k] {
+                Some((p, _)) if dice.once_in(2) => p + dice.vector() * dice.scale(-40, -1),
+                _ => dice.vector(),
+            };
+            let from = dice.vector() * 3.0;
+            let ray = Ray::new(from.to_point(), target - from);
+            assert_eq!(all_roots(&it, &ray), all_roots(&less, &ray), "{name} {ray:?}");
+        }
+    }
+}
+
+#[test]
+fn points_are_within_their_bounds_and_rays_leave_them() {
+    for (name, data) in all_meshes() {
+        let it = surface(&data);
+        let limits = limits(&data);
+        for case in drawn(200) {
+            let mut dice = crate::laws::dice(7, case);
+            let k = dice.below(limits.len() as u64) as usize;
+            let target = match limits[k] {
+                Some((p, _)) if dice.once_in(2) => p + dice.vector() * dice.scale(-40, -1),
+                _ => dice.vector(),
+            };
+            let from = dice.vector() * 3.0;
+            let ray = Ray::new(from.to_point(), target - from);
+            let local = LocalRay::new(&ray);
+            let mut all = All::default();
+            it.roots(&local, &mut all);
+            for root in all.roots.iter().filter(|r| r.kind == RootKind::Simple) {
+                let p = it.resolve(&local, root, Need::ALL);
+                assert!(p.ng.to_vec().length() > 0.999 && p.dp.is_finite(), "{name} {p:?}");
+                let away = (p.p - ray.at(root.t)).abs() - p.dp;
+                assert!((0..3).all(|k| away[k] < 64.0 * U * 10.0), "{name} {p:?} {root:?} {ray:?}");
+                let facing = p.ng.to_vec().dot(ray.direction);
+                let sure = facing.abs() > 1e-6 * ray.direction.length();
+                assert!(!sure || (facing > 0.0) == (root.sign > 0), "{name} {p:?} {root:?}");
+                if data.creases.is_empty() && data.corners.is_empty() {
+                    for sign in [1.0, -1.0] {
+                        let out = p.spawn(p.ng.to_vec() * sign);
+                        let near = all_roots(&it, &out);
+                        let first = near.first().map_or(f64::INFINITY, |r| r.lo);
+                        assert!(p.bend.is_infinite() || first > 2.0 * p.off, "{name} {p:?} {near:?} {ray:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn closed_meshes_are_solids() {
+    for (name, data) in closed_meshes() {
+        let it = surface(&data);
+        assert_eq!(it.solidity(), Solidity::Solid);
+        let mut dice = crate::laws::dice(9, 0);
+        for _ in 0..50 {
+            let p = inside(&name, &mut dice);
+            assert_eq!(it.side(&LocalPoint::new(p.to_point())), Side::In, "{name} {p:?}");
+            let far = dice.vector();
+            let far = far * (10.0 / far.length());
+            assert_eq!(it.side(&LocalPoint::new(far.to_point())), Side::Out, "{name} {far:?}");
+        }
+        let mut turned = data.clone();
+        turned.faces.iter_mut().for_each(|f| f.reverse());
+        let turned = surface(&turned);
+        let p = inside(&name, &mut dice);
+        assert_eq!(turned.side(&LocalPoint::new(p.to_point())), Side::In, "{name}");
+        let ray = Ray::new(Vec3::new(8.0, 0.1, 0.2).to_point(), p - Vec3::new(8.0, 0.1, 0.2));
+        assert_eq!(all_roots(&turned, &ray)[0].sign, -1);
+    }
+}
+
+#[test]
+fn bad_meshes_are_named() {
+    let plain = cube();
+    let with = |change: &dyn Fn(&mut SubdivisionData)| {
+        let mut data = plain.clone();
+        change(&mut data);
+        SubdivisionSurface::new(data).unwrap_err().to_string()
+    };
+    assert_eq!(with(&|d| d.faces.clear()), "subdivision: it has no faces");
+    assert_eq!(with(&|d| d.faces[2][1] = 8), "subdivision: face 2 names vertex 8, there are 8 (0 to 7)");
+    assert_eq!(with(&|d| d.faces[1][2] = d.faces[1][0]), "subdivision: face 1 has vertex 4 twice");
+    assert_eq!(with(&|d| d.faces[0].truncate(2)), "subdivision: face 0 has 2 vertices, it needs 3 at least");
+    assert_eq!(
+        with(&|d| d.vertices[3].y = f64::NAN),
+        "subdivision: vertex 3 must be finite and less than 2^200, got <-1, NaN, 1>"
+    );
+    assert_eq!(
+        with(&|d| d.faces[0].reverse()),
+        "subdivision: faces 0 and 2 both go from vertex 1 to 0; one of them must be turned round"
+    );
+    assert_eq!(
+        with(&|d| d.faces.push(vec![0, 1, 6])),
+        "subdivision: the edge of vertices 0 and 1 has more than two faces: 0, 2 and 6"
+    );
+    assert_eq!(
+        with(&|d| {
+            d.vertices.extend([[5.0, 5.0, 5.0], [5.0, 6.0, 5.0]].map(Point3::from));
+            d.faces.push(vec![0, 8, 9]);
+        }),
+        "subdivision: the faces of vertex 0 fall into two fans or more; faces 0 and 6 are in different ones"
+    );
+    assert_eq!(
+        with(&|d| d.creases.push(([0, 7], 1.0))),
+        "subdivision: crease 0 is no edge: no face has vertices 0 and 7 next to each other"
+    );
+    assert_eq!(
+        with(&|d| d.creases.push(([0, 1], -1.0))),
+        "subdivision: the sharpness of crease 0 must be positive, got -1"
+    );
+    assert_eq!(with(&|d| d.corners.push((9, 1.0))), "subdivision: corner 0 names vertex 9, there are 8");
+    assert_eq!(with(&|d| d.holes.push(6)), "subdivision: hole 0 names face 6, there are 6");
+    assert_eq!(
+        with(&|d| d.holes = (0..6).collect()),
+        "subdivision: all its faces are holes, so it has no surface"
+    );
+    assert_eq!(
+        with(&|d| d.vertices = vec![Point3::ORIGIN; 8]),
+        "subdivision: all its points are the same, so it has no surface"
+    );
+    assert_eq!(
+        with(&|d| d.uv_faces = vec![vec![0, 0, 0, 0]; 5]),
+        "subdivision: face 0 names texture coordinates 0, there are 0"
+    );
+}

@@ -1,0 +1,389 @@
+//! One step of refinement: which points of a finer mesh come from which of a coarser one, and by
+//! what weights.
+//!
+//! ```text
+//!   face point     the mean of the face's vertices
+//!   edge point     the mean of its two ends and the face points on both sides; sharp: of its ends
+//!   vertex point   n - 2     1             1              n edges, other ends e, face points f
+//!                  ----- v + --- sum(e) + --- sum(f)
+//!                    n       n^2          n^2
+//!                  on a crease: 3/4 v + 1/8 (e + e');  at a corner: v
+//! ```
+//!
+//! E. Catmull, J. Clark, *Computer-Aided Design* 10 (1978) 350-355; creases and boundaries: T. DeRose,
+//! M. Kass, T. Truong, "Subdivision surfaces in character animation", *SIGGRAPH* 1998. A sharpness
+//! falls by 1 with each step; between 0 and 1 the sharp and the smooth rule are mixed. Where a
+//! vertex's rule changes with the step, the rules before and after are mixed by the mean of the
+//! sharpnesses that end. All weights are at least 0 and have the sum 1, so what a mesh becomes stays
+//! in the convex hull of its points.
+//!
+//! The limit over a face depends on the points of the faces that touch it, and on the sharpness of
+//! edges at its own vertices: [`Topology::around`] cuts that out.
+
+use durer_math::Dd;
+use std::collections::{BTreeMap, HashMap};
+
+/// A point of the finer mesh: points of the coarser one and their weights.
+pub(super) type Stencil = Vec<(u32, Dd)>;
+
+/// Faces with sharp edges and vertices.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Topology {
+    /// The number of points.
+    pub(super) points: usize,
+    pub(super) faces: Vec<Vec<u32>>,
+    /// Sharp edges but for boundaries, the lesser number first.
+    pub(super) creases: BTreeMap<[u32; 2], f64>,
+    /// Sharp vertices.
+    pub(super) corners: BTreeMap<u32, f64>,
+}
+
+/// The two ends in their order.
+pub(super) fn edge_of(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The rule of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    Smooth,
+    Crease,
+    Corner,
+}
+
+/// What is next to a vertex, counter-clockwise.
+#[derive(Clone, Debug)]
+pub(super) struct Fan {
+    /// The other ends of its edges.
+    pub(super) ends: Vec<u32>,
+    /// The faces: the one at `k` is between the ends `k` and `k + 1`.
+    pub(super) faces: Vec<usize>,
+    /// How sharp the edges are; infinite at a boundary.
+    pub(super) sharpness: Vec<f64>,
+    /// How sharp the vertex is.
+    pub(super) corner: f64,
+}
+
+impl Fan {
+    /// The rule for these sharpnesses.
+    fn rule_of(sharpness: &[f64], corner: f64) -> Rule {
+        match sharpness.iter().filter(|s| **s > 0.0).count() {
+            _ if corner > 0.0 => Rule::Corner,
+            0 | 1 => Rule::Smooth,
+            2 => Rule::Crease,
+            _ => Rule::Corner,
+        }
+    }
+
+    pub(super) fn rule(&self) -> Rule {
+        Self::rule_of(&self.sharpness, self.corner)
+    }
+
+    /// Whether the rule stays as it is: nothing is sharp only for some steps.
+    pub(super) fn is_final(&self) -> bool {
+        self.sharpness.iter().chain([&self.corner]).all(|s| *s == 0.0 || s.is_infinite())
+    }
+
+    /// Whether the vertex is on a boundary.
+    pub(super) fn is_open(&self) -> bool {
+        self.ends.len() > self.faces.len()
+    }
+}
+
+/// A sharpness after a step.
+fn less_sharp(sharpness: f64) -> f64 {
+    (sharpness - 1.0).max(0.0)
+}
+
+/// What is next to what.
+pub(super) struct Adjacency<'a> {
+    mesh: &'a Topology,
+    /// The face on the left of a directed edge, and the edge's place in it.
+    left: HashMap<[u32; 2], (usize, usize)>,
+}
+
+/// A part of a mesh round one face: its numbers of points count as the second list says.
+pub(super) struct Part {
+    pub(super) mesh: Topology,
+    pub(super) points: Vec<u32>,
+}
+
+impl<'a> Adjacency<'a> {
+    pub(super) fn new(mesh: &'a Topology) -> Self {
+        let mut left = HashMap::new();
+        for (face, corners) in mesh.faces.iter().enumerate() {
+            for (k, &a) in corners.iter().enumerate() {
+                left.insert([a, corners[(k + 1) % corners.len()]], (face, k));
+            }
+        }
+        Self { mesh, left }
+    }
+
+    /// How sharp an edge is; infinitely at a boundary.
+    fn sharpness(&self, a: u32, b: u32) -> f64 {
+        if !(self.left.contains_key(&[a, b]) && self.left.contains_key(&[b, a])) {
+            return f64::INFINITY;
+        }
+        self.mesh.creases.get(&edge_of(a, b)).copied().unwrap_or(0.0)
+    }
+
+    /// The vertex that follows `v` in a face, and the one before it.
+    fn beside(&self, face: usize, v: u32) -> Option<[u32; 2]> {
+        let corners = &self.mesh.faces[face];
+        let (at, n) = (corners.iter().position(|c| *c == v)?, corners.len());
+        Some([corners[(at + 1) % n], corners[(at + n - 1) % n]])
+    }
+
+    /// The face on the left of a directed edge; of it the vertex behind the edge's end, and the one
+    /// behind that.
+    pub(super) fn across(&self, a: u32, b: u32) -> Option<(usize, [u32; 2])> {
+        let &(face, at) = self.left.get(&[a, b])?;
+        let corners = &self.mesh.faces[face];
+        let n = corners.len();
+        Some((face, [corners[(at + 2) % n], corners[(at + 3) % n]]))
+    }
+
+    /// The fan of a vertex of a face, which begins with that face, or at the boundary.
+    pub(super) fn fan(&self, v: u32, face: usize) -> Option<Fan> {
+        // Clockwise as far as there are faces.
+        let mut first = face;
+        loop {
+            let [next, _] = self.beside(first, v)?;
+            match self.left.get(&[next, v]) {
+                Some(&(other, _)) if other != face => first = other,
+                Some(_) => {
+                    first = face;
+                    break;
+                }
+                None => break,
+            }
+        }
+        let mut fan = Fan { ends: vec![self.beside(first, v)?[0]], faces: vec![], sharpness: vec![], corner: 0.0 };
+        let mut now = first;
+        loop {
+            fan.faces.push(now);
+            let [_, before] = self.beside(now, v)?;
+            match self.left.get(&[v, before]) {
+                Some(&(other, _)) if other == first => break,
+                Some(&(other, _)) => now = other,
+                None => {
+                    fan.ends.push(before);
+                    break;
+                }
+            }
+            fan.ends.push(before);
+        }
+        fan.sharpness = fan.ends.iter().map(|e| self.sharpness(v, *e)).collect();
+        fan.corner = self.mesh.corners.get(&v).copied().unwrap_or(0.0);
+        Some(fan)
+    }
+
+    /// The part of the mesh on which the limit over a quadrilateral depends. The first face of the
+    /// part is that one, its vertices are the first four.
+    pub(super) fn around(&self, face: usize) -> Option<Part> {
+        self.around_from(face, 0)
+    }
+
+    /// The same, with the face's vertices from the one at `first` on.
+    pub(super) fn around_from(&self, face: usize, first: usize) -> Option<Part> {
+        let mut points: Vec<u32> = self.mesh.faces[face].clone();
+        points.rotate_left(first);
+        let own = points.clone();
+        let mut faces = vec![face];
+        let mut mesh = Topology { faces: vec![(0..points.len() as u32).collect()], ..Topology::default() };
+        let number = |points: &mut Vec<u32>, v: u32| {
+            points.iter().position(|p| *p == v).unwrap_or_else(|| {
+                points.push(v);
+                points.len() - 1
+            }) as u32
+        };
+        for (k, &v) in own.iter().enumerate() {
+            let fan = self.fan(v, face)?;
+            // From this face on.
+            let begin = fan.faces.iter().position(|f| *f == face)?;
+            for step in 0..fan.faces.len() {
+                let other = fan.faces[(begin + step) % fan.faces.len()];
+                if faces.contains(&other) {
+                    continue;
+                }
+                faces.push(other);
+                let corners = &self.mesh.faces[other];
+                let at = corners.iter().position(|c| *c == v)?;
+                let round = (0..corners.len()).map(|i| corners[(at + i) % corners.len()]);
+                mesh.faces.push(round.map(|v| number(&mut points, v)).collect());
+            }
+            for (&end, &sharpness) in fan.ends.iter().zip(&fan.sharpness) {
+                let is_inner = self.left.contains_key(&[v, end]) && self.left.contains_key(&[end, v]);
+                if sharpness > 0.0 && is_inner {
+                    mesh.creases.insert(edge_of(k as u32, number(&mut points, end)), sharpness);
+                }
+            }
+            if fan.corner > 0.0 {
+                mesh.corners.insert(k as u32, fan.corner);
+            }
+        }
+        mesh.points = points.len();
+        Some(Part { mesh, points })
+    }
+}
+
+/// `weight` times a stencil, added to a sum.
+fn add(sum: &mut BTreeMap<u32, Dd>, stencil: &[(u32, Dd)], weight: Dd) {
+    for &(point, w) in stencil {
+        let entry = sum.entry(point).or_insert(Dd::ZERO);
+        *entry = *entry + w * weight;
+    }
+}
+
+fn whole(n: usize) -> Dd {
+    Dd::from(n as f64)
+}
+
+fn finish(sum: BTreeMap<u32, Dd>) -> Stencil {
+    sum.into_iter().filter(|(_, w)| *w != Dd::ZERO).collect()
+}
+
+/// A finer mesh and where its points come from. Each face has become one quadrilateral for each of
+/// its corners, in their order; that of a corner begins there.
+pub(super) struct Finer {
+    pub(super) mesh: Topology,
+    pub(super) stencils: Vec<Stencil>,
+    /// For each finer face, the face and the corner it is of.
+    pub(super) origins: Vec<(usize, usize)>,
+}
+
+impl Adjacency<'_> {
+    fn face_stencil(&self, face: usize) -> Stencil {
+        let corners = &self.mesh.faces[face];
+        let weight = Dd::ONE / whole(corners.len());
+        corners.iter().map(|v| (*v, weight)).collect()
+    }
+
+    fn edge_stencil(&self, a: u32, b: u32) -> Stencil {
+        let mut sum = BTreeMap::new();
+        let sharp = self.sharpness(a, b).min(1.0);
+        let (sharp, smooth) = (Dd::from(sharp), Dd::difference(1.0, sharp));
+        let ends = [(a, Dd::ONE), (b, Dd::ONE)];
+        add(&mut sum, &ends, sharp.scale2(-1));
+        if smooth != Dd::ZERO {
+            add(&mut sum, &ends, smooth.scale2(-2));
+            for edge in [[a, b], [b, a]] {
+                if let Some((face, _)) = self.left.get(&edge) {
+                    add(&mut sum, &self.face_stencil(*face), smooth.scale2(-2));
+                }
+            }
+        }
+        finish(sum)
+    }
+
+    fn add_rule(&self, sum: &mut BTreeMap<u32, Dd>, v: u32, fan: &Fan, (rule, sharpness): (Rule, &[f64]), by: Dd) {
+        let own = [(v, Dd::ONE)];
+        match rule {
+            Rule::Corner => add(sum, &own, by),
+            Rule::Crease => {
+                add(sum, &own, by * Dd::from(0.75));
+                for (end, sharpness) in fan.ends.iter().zip(sharpness) {
+                    if *sharpness > 0.0 {
+                        add(sum, &[(*end, Dd::ONE)], by.scale2(-3));
+                    }
+                }
+            }
+            Rule::Smooth => {
+                let n = fan.faces.len();
+                let (one, square) = (by / whole(n), by / whole(n * n));
+                add(sum, &own, one * Dd::from(n as f64 - 2.0));
+                for end in &fan.ends {
+                    add(sum, &[(*end, Dd::ONE)], square);
+                }
+                for face in &fan.faces {
+                    add(sum, &self.face_stencil(*face), square);
+                }
+            }
+        }
+    }
+
+    fn vertex_stencil(&self, v: u32, fan: &Fan) -> Stencil {
+        let after: Vec<f64> = fan.sharpness.iter().map(|s| less_sharp(*s)).collect();
+        let corner = less_sharp(fan.corner);
+        let rules = [fan.rule(), Fan::rule_of(&after, corner)];
+        let mut sum = BTreeMap::new();
+        if rules[0] == rules[1] {
+            self.add_rule(&mut sum, v, fan, (rules[0], &fan.sharpness), Dd::ONE);
+            return finish(sum);
+        }
+        // What is sharp for the last time.
+        let all = fan.sharpness.iter().chain([&fan.corner]);
+        let ending: Vec<f64> = all.copied().filter(|s| *s > 0.0 && less_sharp(*s) == 0.0).collect();
+        let part = Dd::from(ending.iter().sum::<f64>()) / whole(ending.len().max(1));
+        let part = if part.hi > 1.0 { Dd::ONE } else { part };
+        self.add_rule(&mut sum, v, fan, (rules[0], &fan.sharpness), part);
+        self.add_rule(&mut sum, v, fan, (rules[1], &after), Dd::ONE - part);
+        finish(sum)
+    }
+
+    /// The finer mesh: of the corners of faces that `wanted` says, all but those whose fan is not
+    /// known.
+    pub(super) fn refined(&self, wanted: impl Fn(u32) -> bool) -> Finer {
+        let mut finer = Finer { mesh: Topology::default(), stencils: vec![], origins: vec![] };
+        let mut vertices: HashMap<u32, u32> = HashMap::new();
+        let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
+        let number = |stencils: &mut Vec<Stencil>, stencil: Stencil| {
+            stencils.push(stencil);
+            stencils.len() as u32 - 1
+        };
+        for (face, corners) in self.mesh.faces.iter().enumerate() {
+            if !corners.iter().any(|v| wanted(*v)) {
+                continue;
+            }
+            let middle = number(&mut finer.stencils, self.face_stencil(face));
+            let n = corners.len();
+            for (k, &v) in corners.iter().enumerate() {
+                if !wanted(v) {
+                    continue;
+                }
+                let Some(fan) = self.fan(v, face) else { continue };
+                let own = *vertices
+                    .entry(v)
+                    .or_insert_with(|| number(&mut finer.stencils, self.vertex_stencil(v, &fan)));
+                let corner = less_sharp(fan.corner);
+                if corner > 0.0 {
+                    finer.mesh.corners.insert(own, corner);
+                }
+                let mut side = |other: u32| {
+                    let point = *edges
+                        .entry(edge_of(v, other))
+                        .or_insert_with(|| number(&mut finer.stencils, self.edge_stencil(v, other)));
+                    let is_inner = self.left.contains_key(&[v, other]) && self.left.contains_key(&[other, v]);
+                    let sharpness = less_sharp(self.sharpness(v, other));
+                    if is_inner && sharpness > 0.0 {
+                        finer.mesh.creases.insert(edge_of(own, point), sharpness);
+                    }
+                    point
+                };
+                let (next, before) = (side(corners[(k + 1) % n]), side(corners[(k + n - 1) % n]));
+                finer.mesh.faces.push(vec![own, next, middle, before]);
+                finer.origins.push((face, k));
+            }
+        }
+        finer.mesh.points = finer.stencils.len();
+        finer
+    }
+}
+
+/// A sum of points with weights: in halves, so that its error grows with the logarithm of their
+/// number.
+pub(super) fn apply(stencil: &[(u32, Dd)], points: &[[Dd; 3]]) -> [Dd; 3] {
+    if stencil.len() > 8 {
+        let (a, b) = stencil.split_at(stencil.len() / 2);
+        let (a, b) = (apply(a, points), apply(b, points));
+        return [0, 1, 2].map(|c| a[c] + b[c]);
+    }
+    let mut sum = [Dd::ZERO; 3];
+    for &(point, weight) in stencil {
+        let p = &points[point as usize];
+        for c in 0..3 {
+            sum[c] = sum[c] + p[c] * weight;
+        }
+    }
+    sum
+}
