@@ -5,7 +5,7 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
+    Object as SceneObject, Operation, Parametric, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
     Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
@@ -328,6 +328,31 @@ fn terrain(
     checked(Shape::Terrain(Box::new(terrain)))
 }
 
+/// A box or a ball, if one of them is given.
+fn container(corners: Option<[V3; 2]>, ball: Option<(V3, f64)>) -> PyResult<Option<Container>> {
+    Ok(match (corners, ball) {
+        (None, None) => None,
+        (Some([a, b]), None) => Some(Container::Box(point(a), point(b))),
+        (None, Some((centre, radius))) => Some(Container::Ball(point(centre), radius)),
+        (Some(_), Some(_)) => return Err(value_error("there are two containers, a box and a ball: give one")),
+    })
+}
+
+/// The surface of three functions of u and v.
+#[pyfunction]
+fn parametric(
+    functions: [Vec<formula::Step>; 3],
+    domain: [[f64; 2]; 2],
+    container_box: Option<[V3; 2]>,
+    container_ball: Option<(V3, f64)>,
+) -> PyResult<Object> {
+    let [x, y, z] = functions;
+    let of = |steps: Vec<formula::Step>| formula::build(&steps, 2).map(Arc::new);
+    let functions = [of(x)?, of(y)?, of(z)?];
+    let container = container(container_box, container_ball)?;
+    checked(Shape::Parametric(Arc::new(Parametric { functions, domain, container })))
+}
+
 #[pyfunction]
 fn isosurface(
     steps: Vec<formula::Step>,
@@ -335,11 +360,9 @@ fn isosurface(
     container_box: Option<[V3; 2]>,
     container_ball: Option<(V3, f64)>,
 ) -> PyResult<Object> {
-    let function = Arc::new(formula::build(&steps)?);
-    let container = match (container_box, container_ball) {
-        (Some([a, b]), None) => Container::Box(point(a), point(b)),
-        (None, Some((centre, radius))) => Container::Ball(point(centre), radius),
-        _ => return Err(value_error("formula: one container, a box or a ball, must hold the surface")),
+    let function = Arc::new(formula::build(&steps, 3)?);
+    let Some(container) = container(container_box, container_ball)? else {
+        return Err(value_error("formula: a box or a ball must hold the surface"));
     };
     checked(Shape::Isosurface(Box::new(Isosurface { function, threshold, container })))
 }
@@ -347,7 +370,7 @@ fn isosurface(
 /// The value of a formula at some points.
 #[pyfunction]
 fn formula_value(steps: Vec<formula::Step>, point: V3) -> PyResult<f64> {
-    Ok(formula::build(&steps)?.value(&point))
+    Ok(formula::build(&steps, 3)?.value(&point))
 }
 
 #[pyfunction]
@@ -490,6 +513,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sierpinski, module)?)?;
     module.add_function(wrap_pyfunction!(height_field, module)?)?;
     module.add_function(wrap_pyfunction!(terrain, module)?)?;
+    module.add_function(wrap_pyfunction!(parametric, module)?)?;
     module.add_function(wrap_pyfunction!(isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(formula_value, module)?)?;
     module.add_function(wrap_pyfunction!(union, module)?)?;

@@ -7,6 +7,7 @@ mod ifs;
 mod julia;
 mod mesh;
 mod modifiers;
+mod parametric;
 mod patch;
 pub(crate) mod queries;
 mod shapes;
@@ -99,6 +100,7 @@ pub(crate) enum Shape {
     },
     Prism(Rc<durer_scene::Prism>),
     Sweep(Rc<durer_scene::StraightSweep>),
+    PathSweep(durer_scene::PathSweep),
     /// Centre and radius each.
     SphereSweep(durer_scene::SweepSpline, Rc<[[f64; 4]]>),
     /// Radii and heights.
@@ -107,6 +109,7 @@ pub(crate) enum Shape {
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Patch(Rc<durer_scene::Patch>),
     Nurbs(Rc<durer_scene::NurbsData>),
+    Parametric(Rc<durer_scene::Parametric>),
     Ovus {
         bottom: f64,
         top: f64,
@@ -282,6 +285,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Sor
             | Lathe
             | BicubicPatch
+            | Parametric
             | Ovus
             | Cubic
             | Quartic

@@ -48,6 +48,7 @@ __all__ = [
     "nurbs",
     "ovus",
     "parallelogram",
+    "parametric",
     "placed",
     "plane",
     "polygon",
@@ -240,6 +241,12 @@ def height_field(
 ) -> Object: ...
 def terrain(
     levels: int, numbers: _Numbers, seed: int, corners: _Numbers, water_level: float | None, smooth: bool
+) -> Object: ...
+def parametric(
+    functions: Sequence[Sequence[_Step]],
+    domain: Sequence[_Numbers],
+    container_box: Sequence[_Numbers] | None,
+    container_ball: tuple[_Numbers, float] | None,
 ) -> Object: ...
 def isosurface(
     steps: Sequence[_Step],
