@@ -151,7 +151,10 @@ fn what_is_not_there_yet_is_called_by_its_name() {
 fn parametric_surfaces_say_what_is_wrong_with_them() {
     let two = "function { u } function { v }";
     for (text, wanted) in [
-        (format!("parametric {{ {two} <0, 0>, <1, 1> }}"), "a parametric has three functions, this one has 2"),
+        (
+            format!("parametric {{ {two} <0, 0>, <1, 1> }}"),
+            "a parametric has three functions, this one has 2",
+        ),
         (format!("parametric {{ {two} function {{ z }} <0, 0>, <1, 1> }}"), "this one uses z"),
         (format!("parametric {{ {two} function(a) {{ a }} <0, 0>, <1, 1> }}"), "this one has 1"),
         (

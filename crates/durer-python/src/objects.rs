@@ -5,8 +5,9 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Parametric, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
-    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
+    Reflection, Rgb, Scene, Shape, Spline, StraightSweep, Sweep, SweepData, SweepSpline, Terrain,
+    TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -134,10 +135,12 @@ fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: b
 #[pyfunction]
 fn sweep(
     outlines: Vec<Vec<[f64; 2]>>,
-    path: [[f64; 3]; 2],
-    sizes: [f64; 2],
+    path: Vec<[f64; 3]>,
+    sizes: Vec<f64>,
     up: Option<[f64; 3]>,
     spline: &str,
+    path_spline: &str,
+    twist: f64,
 ) -> PyResult<Object> {
     let spline = match spline {
         "linear" => Spline::Linear,
@@ -148,8 +151,36 @@ fn sweep(
             )));
         }
     };
-    let (path, up) = (path.map(point), up.map(vec3));
-    checked(Shape::StraightSweep(Arc::new(StraightSweep { outlines, spline, path, sizes, up })))
+    let kind = match path_spline {
+        "linear" => PathSpline::Linear,
+        "cubic" => PathSpline::Cubic,
+        "b" => PathSpline::BSpline,
+        "bezier" => PathSpline::Bezier,
+        other => {
+            return Err(value_error(format!(
+                "sweep: the path's spline must be 'linear', 'cubic', 'b' or 'bezier', got '{other}'"
+            )));
+        }
+    };
+    let up = up.map(vec3);
+    if let (PathSpline::Linear, &[from, to], &[start, end], 0.0) = (kind, &path[..], &sizes[..], twist) {
+        let (path, sizes) = ([from, to].map(point), [start, end]);
+        return checked(Shape::StraightSweep(Arc::new(StraightSweep { outlines, spline, path, sizes, up })));
+    }
+    if sizes.len() != path.len() {
+        return Err(value_error(format!(
+            "sweep: {} points need as many sizes, got {}",
+            path.len(),
+            sizes.len()
+        )));
+    }
+    let outlines = outlines.iter().map(|points| match spline {
+        Spline::Curved(curve) => curve.pieces(points),
+        Spline::Linear => SweepData::edges(points),
+    });
+    let path = path.iter().zip(&sizes).map(|(&[x, y, z], &size)| [x, y, z, size]).collect();
+    let data = SweepData { outlines: outlines.collect(), spline: kind, path, twist, up };
+    checked(Shape::PathSweep(PathSweep::new(data).map_err(|error| value_error(error.to_string()))?))
 }
 
 #[pyfunction]
@@ -334,7 +365,9 @@ fn container(corners: Option<[V3; 2]>, ball: Option<(V3, f64)>) -> PyResult<Opti
         (None, None) => None,
         (Some([a, b]), None) => Some(Container::Box(point(a), point(b))),
         (None, Some((centre, radius))) => Some(Container::Ball(point(centre), radius)),
-        (Some(_), Some(_)) => return Err(value_error("there are two containers, a box and a ball: give one")),
+        (Some(_), Some(_)) => {
+            return Err(value_error("there are two containers, a box and a ball: give one"));
+        }
     })
 }
 

@@ -8,8 +8,7 @@ use durer_surfaces::{StraightPath, StraightPathError};
 use crate::tape::Formula;
 use crate::{
     BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep, SweepSpline,
-    Terrain,
-    Texture, Warp,
+    Terrain, Texture, Warp,
 };
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is

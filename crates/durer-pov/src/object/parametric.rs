@@ -20,7 +20,9 @@ impl Parser<'_> {
             let formula = of_two(&formula).map_err(|wrong| match wrong {
                 Wrong::Count(count) => Error::invalid(
                     at,
-                    format!("the functions of a parametric have two parameters, u and v; this one has {count}"),
+                    format!(
+                        "the functions of a parametric have two parameters, u and v; this one has {count}"
+                    ),
                 ),
                 Wrong::Third => {
                     Error::invalid(at, "the functions of a parametric are of u and v; this one uses z")
@@ -31,9 +33,9 @@ impl Parser<'_> {
             self.skip_comma()?;
         }
         let count = functions.len();
-        let functions: [Arc<Formula>; 3] = functions
-            .try_into()
-            .map_err(|_| Error::invalid(place, format!("a parametric has three functions, this one has {count}")))?;
+        let functions: [Arc<Formula>; 3] = functions.try_into().map_err(|_| {
+            Error::invalid(place, format!("a parametric has three functions, this one has {count}"))
+        })?;
         self.peek()?;
         let at = self.here();
         let from = self.vector2()?;
@@ -41,7 +43,8 @@ impl Parser<'_> {
         let to = self.vector2()?;
         for (k, name) in ['u', 'v'].into_iter().enumerate() {
             if from[k] >= to[k] {
-                let text = format!("{name} of this parametric goes from {} to {}; it must ascend", from[k], to[k]);
+                let text =
+                    format!("{name} of this parametric goes from {} to {}; it must ascend", from[k], to[k]);
                 return Err(Error::invalid(at, text));
             }
         }

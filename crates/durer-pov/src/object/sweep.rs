@@ -60,7 +60,8 @@ impl Parser<'_> {
             Spline::Linear => SweepData::edges(points),
             Spline::Curved(curve) => curve.pieces(points),
         });
-        let data = SweepData { outlines: outlines.collect(), spline: kind, path, twist: twist.to_radians(), up };
+        let data =
+            SweepData { outlines: outlines.collect(), spline: kind, path, twist: twist.to_radians(), up };
         let sweep = PathSweep::new(data).map_err(|why| Error::invalid(at, why.to_string()))?;
         Ok(Shape::PathSweep(sweep))
     }
@@ -117,8 +118,9 @@ impl Parser<'_> {
         };
         let count = self.point_count("the path of a sweep", kind.least() as u32)?;
         if kind == PathSpline::Bezier && count % 4 != 0 {
-            let text =
-                format!("a path of bezier_spline has four points for each span, {count} is not a multiple of 4");
+            let text = format!(
+                "a path of bezier_spline has four points for each span, {count} is not a multiple of 4"
+            );
             return Err(Error::invalid(at, text));
         }
         let mut points = Vec::new();
@@ -138,7 +140,10 @@ impl Parser<'_> {
         let count = self.float()?;
         self.skip_comma()?;
         if !(1.0..1e6).contains(&count) {
-            return Err(Error::invalid(at, format!("`size` has one number for each point of the path, not {count}")));
+            return Err(Error::invalid(
+                at,
+                format!("`size` has one number for each point of the path, not {count}"),
+            ));
         }
         let mut sizes = Vec::new();
         for n in 0..count as usize {

@@ -6,9 +6,9 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
-    Parametric, ParametricError,
-    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Parallelogram, Parametric, ParametricError, PatchError, Plane, Polygon, PolygonError, Prism, Quadric,
+    Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle,
+    TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};

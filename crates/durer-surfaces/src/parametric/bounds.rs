@@ -18,8 +18,7 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// No bounds.
-    pub(super) const NONE: Self =
-        Self { low: [f64::NEG_INFINITY; 3], high: [f64::INFINITY; 3], ball: None };
+    pub(super) const NONE: Self = Self { low: [f64::NEG_INFINITY; 3], high: [f64::INFINITY; 3], ball: None };
 
     /// Whether there are none.
     pub(super) fn are_none(&self) -> bool {

@@ -26,10 +26,10 @@ pub(super) fn on_border(found: &Found, faces: &[Face]) -> bool {
 }
 
 /// Whether crossings are one on a border: both may be on borders of their domains, at the same place
-/// of the line. Of one map that is a seam, where it comes back to itself, perhaps turned over. Of
-/// two maps it is a common edge, and both go through it in the same direction.
+/// of the line. Of a map that is alone that is a seam, where it comes back to itself, perhaps turned
+/// over. Of several it is a common edge, and both go through it in the same direction.
 fn is_shared(a: &Found, b: &Found, (faces, gap): (&[Face], f64)) -> bool {
-    let alike = a.face == b.face || a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
+    let alike = faces.len() == 1 || a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
     // Edges that should be one are rounded differently.
     let room = a.s_err + b.s_err + gap;
     alike && (a.s - b.s).abs() <= room && on_border(a, faces) && on_border(b, faces)
@@ -43,7 +43,10 @@ pub(super) fn distinct<'f>(found: &'f mut Vec<Found>, faces: &[Face], gap: f64) 
     }
     // Proven ones first; of those of a seam, the one of the least parameters.
     found.sort_by(|a, b| {
-        (a.sign == 0, a.face).cmp(&(b.sign == 0, b.face)).then(a.uv[0].total_cmp(&b.uv[0])).then(a.uv[1].total_cmp(&b.uv[1]))
+        (a.sign == 0, a.face)
+            .cmp(&(b.sign == 0, b.face))
+            .then(a.uv[0].total_cmp(&b.uv[0]))
+            .then(a.uv[1].total_cmp(&b.uv[1]))
     });
     let mut kept = 0;
     for i in 0..found.len() {
@@ -101,7 +104,8 @@ fn joined(a: &Found, b: &Found) -> Found {
         for k in 0..2 {
             let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
             let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
-            (out.uv[k], out.radius[k]) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * low.abs().max(high.abs()));
+            (out.uv[k], out.radius[k]) =
+                (0.5 * (low + high), 0.5 * (high - low) * wider + U * low.abs().max(high.abs()));
         }
     }
     let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));

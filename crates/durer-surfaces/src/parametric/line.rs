@@ -141,6 +141,14 @@ impl View<'_> {
             x = [0, 1].map(|k| x[k] - step[k]);
             if (0..2).all(|k| step[k].abs() <= NEAR * piece.width[k]) {
                 if let Some(found) = self.proven(piece, x) {
+                    // Another one may still be in the box if this one is outside.
+                    let within = |k: usize| {
+                        let ([from, to], [at, off]) = (piece.wide[k], [found.0.uv[k], found.0.radius[k]]);
+                        from <= at - off && at + off <= to
+                    };
+                    if !(within(0) && within(1)) {
+                        return false;
+                    }
                     if self.belongs(piece, &found) && !self.is_cut_off(&found.1) {
                         out.push(found.0);
                     }
@@ -160,9 +168,8 @@ impl View<'_> {
     fn step(&self, piece: &Piece, x: [f64; 2]) -> Option<[f64; 2]> {
         let jets = self.face.tape.jet(x);
         let p = [0, 1, 2].map(|c: usize| scale2(jets[c].v - self.unit.centre[c], -self.unit.scale));
-        let j = [0, 1, 2].map(|c: usize| {
-            [0, 1].map(|k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * piece.width[k])
-        });
+        let j = [0, 1, 2]
+            .map(|c: usize| [0, 1].map(|k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * piece.width[k]));
         let f = self.values(&p, &[0.0; 3]).0;
         let y = inverse(&self.slopes(&j, &[[0.0; 2]; 3]).0)?;
         let step = [0, 1].map(|i: usize| y[i][0].mul_add(f[0], y[i][1] * f[1]) * piece.width[i]);

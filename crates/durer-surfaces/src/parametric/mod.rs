@@ -173,7 +173,8 @@ impl Parametric {
         }
         let tape = VectorTape::new(formulas)?;
         let bounds = container.map_or(Bounds::NONE, Bounds::of);
-        let sheet = Sheet::new(vec![Face::new(tape, domain)], &bounds, GAP).map_err(|(_, refused)| refused)?;
+        let sheet =
+            Sheet::new(vec![Face::new(tape, domain)], &bounds, GAP).map_err(|(_, refused)| refused)?;
         let sheet = sheet.ok_or(ParametricError::Nothing)?;
         Ok(Self { sheet: Arc::new(sheet) })
     }

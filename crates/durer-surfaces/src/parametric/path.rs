@@ -52,12 +52,24 @@ impl PathSpline {
         match self {
             Self::Linear => points
                 .windows(2)
-                .map(|p| [p[0], toward(&p[0], &p[0], &p[1], 1.0 / 3.0), toward(&p[1], &p[1], &p[0], 1.0 / 3.0), p[1]])
+                .map(|p| {
+                    [
+                        p[0],
+                        toward(&p[0], &p[0], &p[1], 1.0 / 3.0),
+                        toward(&p[1], &p[1], &p[0], 1.0 / 3.0),
+                        p[1],
+                    ]
+                })
                 .collect(),
             Self::Cubic => points
                 .windows(4)
                 .map(|p| {
-                    [p[1], toward(&p[1], &p[0], &p[2], 1.0 / 6.0), toward(&p[2], &p[3], &p[1], 1.0 / 6.0), p[2]]
+                    [
+                        p[1],
+                        toward(&p[1], &p[0], &p[2], 1.0 / 6.0),
+                        toward(&p[2], &p[3], &p[1], 1.0 / 6.0),
+                        p[2],
+                    ]
                 })
                 .collect(),
             Self::BSpline => points

@@ -105,7 +105,8 @@ impl Sheet {
             (scale2(bend, -self.unit.scale), 0.0)
         };
         point.uv = root.tag;
-        let slope = |d: Vec3, k: usize| d.map(|x| self.back(x)) * (1.0 / (face.domain[k][1] - face.domain[k][0]));
+        let slope =
+            |d: Vec3, k: usize| d.map(|x| self.back(x)) * (1.0 / (face.domain[k][1] - face.domain[k][0]));
         point.dpdu = slope(jet.pu, 0);
         point.dpdv = slope(jet.pv, 1);
         point

@@ -115,12 +115,7 @@ impl Sheet {
         self.with_found(ray, (f64::NEG_INFINITY, f64::INFINITY), f);
     }
 
-    fn with_found(
-        &self,
-        ray: &LocalRay<'_>,
-        range: (f64, f64),
-        f: impl FnOnce(&CentredRay<'_>, &[Found]),
-    ) {
+    fn with_found(&self, ray: &LocalRay<'_>, range: (f64, f64), f: impl FnOnce(&CentredRay<'_>, &[Found])) {
         let at = ray.recentre(self.centre, self.unit.scale).sharp(1.0);
         let mut lists = LISTS.take();
         self.meet(&at, &mut lists, range);

@@ -85,10 +85,10 @@ fn along_slowest(view: &View<'_>, part: &Piece) -> Slow {
     let slow = slowest(&local.j);
     let sum = |x: [f64; 2]| slow[0].abs() * x[0].abs() + slow[1].abs() * x[1].abs();
     let value = slow[0].mul_add(local.f[0], slow[1] * local.f[1]).abs();
-    let change: f64 =
-        (0..2).map(|k| slow[0].mul_add(local.j[0][k], slow[1] * local.j[1][k]).abs()).sum();
+    let change: f64 = (0..2).map(|k| slow[0].mul_add(local.j[0][k], slow[1] * local.j[1][k]).abs()).sum();
     // The combination itself rounds.
-    let rounding = 4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
+    let rounding =
+        4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
     let reach = part.half() * (change + 2.0 * sum(limits.e_j)) + rounding;
     let noise = sum(limits.e);
     if value > (reach + noise) * ROUNDED {

@@ -41,7 +41,9 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SweepError {
     /// The path has too few points, or points that make no whole spans.
-    #[error("sweep: a path of {what} needs {least} points at least, and a multiple of 4 for a bezier_spline; got {len}")]
+    #[error(
+        "sweep: a path of {what} needs {least} points at least, and a multiple of 4 for a bezier_spline; got {len}"
+    )]
     Points {
         /// The spline.
         what: &'static str,
@@ -134,7 +136,8 @@ impl PathSweep {
             return Err(SweepError::Finite("the profile"));
         }
         let spans = framed(data.spline, &data.path, data.up)?;
-        if let Some(p) = spans.iter().flat_map(|s| &s.points).find(|p| p[3] <= 0.0) {
+        let control = spans.iter().flat_map(|span| &span.points);
+        if let Some(p) = data.path.iter().chain(control).find(|p| p[3] <= 0.0) {
             return Err(SweepError::Size(p[3]));
         }
         let outlines = oriented(&data.outlines);
@@ -191,7 +194,11 @@ impl PathSweep {
             let mut roots = Sorted::new();
             for Turn { found, sign, .. } in self.turns(found) {
                 if let Some(root) = root(at, &found) {
-                    let kind = if sign == 0 { RootKind::Grazing } else { root.kind };
+                    let kind = match (sign, root.kind) {
+                        (0, _) => RootKind::Grazing,
+                        (_, RootKind::Grazing) => RootKind::Cluster,
+                        (_, kind) => kind,
+                    };
                     roots.push(Root { sign, kind, ..root });
                 }
             }
@@ -220,6 +227,15 @@ impl PathSweep {
         let counted = |cap: &Turn| cap.weight != 0 || cap.sign == 0;
         all.extend(caps.into_iter().flatten().filter(counted));
         all.sort_by(|a, b| a.found.s.total_cmp(&b.found.s));
+        // Where both ends of a closed path meet, the caps are at the same place: into the one first.
+        for k in 1..all.len() {
+            let is_cap = |turn: &Turn| turn.found.face as usize >= self.walls;
+            let (a, b) = (&all[k - 1], &all[k]);
+            let meet = (a.found.s - b.found.s).abs() <= a.found.s_err + b.found.s_err + OVERLAP;
+            if is_cap(a) && is_cap(b) && meet && a.weight > 0 && b.weight < 0 {
+                all.swap(k - 1, k);
+            }
+        }
         self.close(&mut all);
         let mut count = 0;
         all.retain_mut(|turn| {
@@ -265,7 +281,11 @@ impl PathSweep {
             return [(face / self.pieces) as f64 + tag[1], (face % self.pieces) as f64 + tag[0]];
         }
         let cap = face - self.walls;
-        if cap < self.pieces { [0.0, cap as f64 + tag[0]] } else { [spans, (cap - self.pieces) as f64 + tag[1]] }
+        if cap < self.pieces {
+            [0.0, cap as f64 + tag[0]]
+        } else {
+            [spans, (cap - self.pieces) as f64 + tag[1]]
+        }
     }
 }
 
@@ -396,7 +416,13 @@ fn coordinate(points: &[[f64; 4]; 4], k: usize) -> [f64; 4] {
 
 impl Kind {
     /// The point of the profile's plane with these coordinates, at `u` of a span.
-    fn point(&self, pen: &mut Pen, (number, span): (usize, &Span), ab: [NodeId; 2], u: NodeId) -> Written<Vector> {
+    fn point(
+        &self,
+        pen: &mut Pen,
+        (number, span): (usize, &Span),
+        ab: [NodeId; 2],
+        u: NodeId,
+    ) -> Written<Vector> {
         if self.spline == PathSpline::Linear {
             return self.straight(pen, (number, span), ab, u);
         }
@@ -554,7 +580,8 @@ fn oriented(outlines: &[Vec<Bezier>]) -> Vec<Vec<Bezier>> {
             odd ^ (between && x < (bx - ax) * (y - ay) / (by - ay) + ax)
         })
     };
-    let within = |p: [f64; 2], outline: &[Bezier]| outline.iter().fold(false, |odd, piece| odd ^ crosses(p, piece));
+    let within =
+        |p: [f64; 2], outline: &[Bezier]| outline.iter().fold(false, |odd, piece| odd ^ crosses(p, piece));
     let mut out = Vec::new();
     for (k, outline) in outlines.iter().enumerate() {
         let Some(first) = outline.first() else { continue };
@@ -573,9 +600,10 @@ fn oriented(outlines: &[Vec<Bezier>]) -> Vec<Vec<Bezier>> {
 /// A point in the middle of the profile, beside its symmetries.
 fn centre(pieces: &[Bezier]) -> [f64; 2] {
     [0, 1].map(|k: usize| {
-        let (low, high) = pieces.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-            (low.min(p[k]), high.max(p[k]))
-        });
+        let (low, high) = pieces
+            .iter()
+            .flatten()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])));
         low + (high - low) * [0.5093, 0.4871][k]
     })
 }

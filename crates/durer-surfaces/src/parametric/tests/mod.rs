@@ -252,7 +252,9 @@ fn polynomials_are_their_bezier_patches() {
                 ((flat + dice.lattice(6)) * 0.125).to_point()
             })
             .collect();
-        let (Ok(patch), Ok(ours)) = (BezierPatch::new(size, &points), of_net(size, &points)) else { continue };
+        let (Ok(patch), Ok(ours)) = (BezierPatch::new(size, &points), of_net(size, &points)) else {
+            continue;
+        };
         for _ in 0..16 {
             let uv = [dice.unit(), dice.unit()];
             let uv = if dice.once_in(4) { uv.map(|x| (x * 4.0).round() / 4.0) } else { uv };

@@ -10,14 +10,8 @@ fn square(half: f64) -> Vec<crate::Bezier> {
 }
 
 fn swept(spline: PathSpline, path: &[[f64; 4]], twist: f64) -> PathSweep {
-    PathSweep::new(SweepData {
-        outlines: vec![square(0.5)],
-        spline,
-        path: path.to_vec(),
-        twist,
-        up: None,
-    })
-    .unwrap()
+    PathSweep::new(SweepData { outlines: vec![square(0.5)], spline, path: path.to_vec(), twist, up: None })
+        .unwrap()
 }
 
 /// An L: two square beams that meet in a corner.
@@ -69,12 +63,7 @@ fn curved() -> Vec<PathSweep> {
             [[0.0, -r * k], [c, -r * k], [r, -c * k], [r, 0.0]],
         ]
     };
-    let bow = [
-        [0.0, 0.0, 0.0, 0.5],
-        [0.0, 2.0, 0.0, 0.5],
-        [2.0, 2.0, 0.5, 0.25],
-        [2.0, 0.0, 1.0, 0.25],
-    ];
+    let bow = [[0.0, 0.0, 0.0, 0.5], [0.0, 2.0, 0.0, 0.5], [2.0, 2.0, 0.5, 0.25], [2.0, 0.0, 1.0, 0.25]];
     let data = |outlines, spline, path: &[[f64; 4]], twist, up| SweepData {
         outlines,
         spline,
@@ -85,7 +74,8 @@ fn curved() -> Vec<PathSweep> {
     vec![
         PathSweep::new(data(vec![square(0.5)], PathSpline::Cubic, &wave, 0.0, None)).unwrap(),
         PathSweep::new(data(vec![square(0.5)], PathSpline::BSpline, &wave, 2.0, None)).unwrap(),
-        PathSweep::new(data(vec![ring(0.5, 1.0), ring(0.3, 1.0)], PathSpline::Bezier, &bow, 0.0, None)).unwrap(),
+        PathSweep::new(data(vec![ring(0.5, 1.0), ring(0.3, 1.0)], PathSpline::Bezier, &bow, 0.0, None))
+            .unwrap(),
         PathSweep::new(data(vec![ring(0.5, -1.0)], PathSpline::Cubic, &wave, 0.0, Some(Vec3::Y))).unwrap(),
     ]
 }
@@ -141,8 +131,9 @@ fn knots_and_edges_let_nothing_through() {
             let any = dice.unit();
             let border = [dice.pick(&[0.0, 1.0, any]), dice.pick(&[0.0, 1.0])];
             let (target, other) = (place(border), place([dice.unit(), dice.unit()]));
-            let ray = Ray::new((other + (other - target) * dice.pick(&[0.0, 0.5])).to_point(), target - other)
-                .with_range(-1e9, 1e9);
+            let ray =
+                Ray::new((other + (other - target) * dice.pick(&[0.0, 0.5])).to_point(), target - other)
+                    .with_range(-1e9, 1e9);
             if ray.is_valid() && (target - other).length() > 1e-3 {
                 let mut roots = all_roots(body, &ray);
                 roots.retain(|r| r.sign != 0);
@@ -164,14 +155,29 @@ fn bad_sweeps_are_named() {
         with(PathSpline::Cubic, &[p(0.0, 0.0); 3], None),
         SweepError::Points { what: "cubic_spline", least: 4, len: 3 }
     );
-    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, 0.0), p(1.0, 0.0)], None), SweepError::Tangent(1));
-    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, 0.0), p(0.5, 0.0)], None), SweepError::Reversal(1));
-    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, f64::NAN)], None), SweepError::Finite("the path"));
-    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), p(0.0, 1.0)], Some(Vec3::Y)), SweepError::Up(0));
     assert_eq!(
-        with(PathSpline::Linear, &[p(0.0, 0.0), [0.0, 1.0, 0.0, -1.0]], None),
-        SweepError::Size(-1.0)
+        with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, 0.0), p(1.0, 0.0)], None),
+        SweepError::Tangent(1)
     );
-    let corner = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0), p(3.0, 0.0), p(3.0, 1.0), p(3.0, 2.0), p(3.0, 3.0)];
+    assert_eq!(
+        with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, 0.0), p(0.5, 0.0)], None),
+        SweepError::Reversal(1)
+    );
+    assert_eq!(
+        with(PathSpline::Linear, &[p(0.0, 0.0), p(1.0, f64::NAN)], None),
+        SweepError::Finite("the path")
+    );
+    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), p(0.0, 1.0)], Some(Vec3::Y)), SweepError::Up(0));
+    assert_eq!(with(PathSpline::Linear, &[p(0.0, 0.0), [0.0, 1.0, 0.0, -1.0]], None), SweepError::Size(-1.0));
+    let corner = [
+        p(0.0, 0.0),
+        p(1.0, 0.0),
+        p(2.0, 0.0),
+        p(3.0, 0.0),
+        p(3.0, 0.0),
+        p(3.0, 1.0),
+        p(3.0, 2.0),
+        p(3.0, 3.0),
+    ];
     assert_eq!(with(PathSpline::Bezier, &corner, None), SweepError::Corner(1));
 }
