@@ -211,7 +211,7 @@ impl View<'_> {
                 hull[c] = Interval::around(at, err * ROUNDED);
             }
             let z_axis = self.line.axes[2];
-            let (z, z_err) = self.from_origin(&hull[z_axis]);
+            let (z, z_err) = self.depth(&hull[z_axis]);
             let (s, s_err) = self.line.along(z, z_err);
             let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
             let uv = [0, 1].map(|k: usize| zero.x[k].mul_add(piece.width[k], x[k]));
@@ -223,7 +223,7 @@ impl View<'_> {
     }
 
     /// The third coordinate of a box in space, counted from the line's origin, and its error.
-    fn from_origin(&self, x: &Interval) -> (f64, f64) {
+    fn depth(&self, x: &Interval) -> (f64, f64) {
         let middle = 0.5 * x.lo + 0.5 * x.hi;
         let half = (x.hi - middle).max(middle - x.lo);
         let z = middle - self.line.o[2];
@@ -246,7 +246,7 @@ impl View<'_> {
 
     /// A piece in which crossings cannot be told from misses.
     pub(super) fn unresolved(&self, piece: &Piece) -> Found {
-        let (z, z_err) = self.from_origin(&piece.hull[self.line.axes[2]]);
+        let (z, z_err) = self.depth(&piece.hull[self.line.axes[2]]);
         let (s, s_err) = self.line.along(z, z_err);
         let uv = piece.middle;
         let radius = [0, 1].map(|k: usize| {

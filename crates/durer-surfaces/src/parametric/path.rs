@@ -169,25 +169,25 @@ pub(super) fn framed(
     for (k, span) in spans.iter().enumerate() {
         let [t, end] = tangents[k];
         let x_here = across(x, t).ok_or(SweepError::Tangent(k))?;
-        let (next, turn) = if let Some(up) = up {
+        let is_straight = spline == PathSpline::Linear;
+        let (next, turn) = if is_straight {
+            (x_here, 0.0)
+        } else if let Some(up) = up {
             (direction(up.cross(end)).ok_or(SweepError::Up(k + 1))?, 0.0)
         } else {
             let next = reflected(x_here, t, end, place(&span[3]) - place(&span[0]));
             let next = across(next, end).ok_or(SweepError::Tangent(k + 1))?;
             let straight = rotated(x_here, t, end);
             let turn = atan2(straight.cross(next).dot(end), straight.dot(next));
-            (next, if spline == PathSpline::Linear { 0.0 } else { turn })
+            (next, turn)
         };
         let mitre = |a: Vec3, b: Vec3| direction(a + b).ok_or(SweepError::Reversal(k));
         let before = if k > 0 { tangents[k - 1][1] } else { t };
         let after = tangents.get(k + 1).map_or(end, |next| next[0]);
         let mitres = [mitre(before, t)?, mitre(end, after)?];
         out.push(Span { points: *span, t, x: x_here, turn, mitres });
-        // At a corner the frame turns with the tangent.
-        x = if up.is_none() { rotated(next, end, after) } else { next };
-        if let (Some(up), true) = (up, k + 1 < spans.len()) {
-            x = direction(up.cross(after)).ok_or(SweepError::Up(k + 1))?;
-        }
+        // At a corner the frame turns with the tangent, so that both sides meet in its plane.
+        x = rotated(next, end, after);
     }
     Ok(out)
 }

@@ -10,7 +10,7 @@
 //!
 //! Inside a span of the path the frame is the smallest rotation of the span's first frame onto the
 //! tangent, and then what is left of the turn to the next knot's frame, and the twist, evenly in `u`
-//! (`path.rs`). With `up`, X is at right angles to it everywhere. Straight spans begin and end in the
+//! (`path.rs`). With `up`, X of a curved span is at right angles to it everywhere. Straight spans begin and end in the
 //! planes that halve the angles of the corners. Each piece of the profile along each span is one map
 //! of a rectangle (`sheet.rs`).
 //!
@@ -79,8 +79,8 @@ pub enum SweepError {
     /// The formulas are too long.
     #[error("sweep: {0}")]
     Formula(#[from] FormulaError),
-    /// The frame or the tangent vanishes between two knots.
-    #[error("sweep: the path has no tangent, or `up` is parallel to it, inside span {0}")]
+    /// The frame or the tangent vanishes between two knots; spans count from 0.
+    #[error("sweep: inside span {0} the path has no tangent, turns by 180 degrees, or is parallel to `up`")]
     Inside(usize),
 }
 
@@ -95,7 +95,7 @@ pub struct SweepData {
     pub path: Vec<[f64; 4]>,
     /// The whole twist about the path, in radians, even in the path's parameter.
     pub twist: f64,
-    /// The profile's second axis points to this side.
+    /// The profile's second axis points to this side; of a linear path at its beginning.
     pub up: Option<Vec3>,
 }
 
