@@ -437,6 +437,7 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(points * 16);
             scene::Shape::StraightSweep(Arc::new((**sweep).clone()))
         }
+        Shape::PathSweep(sweep) => scene::Shape::PathSweep(sweep.clone()),
         Shape::SphereSweep(spline, spheres) => {
             limits::charge_for_good(spheres.len() * 32);
             scene::Shape::SphereSweep(*spline, Arc::from(&spheres[..]))
@@ -461,6 +462,7 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(subdivision_bytes(data));
             scene::Shape::Subdivision(Arc::new((**data).clone()))
         }
+        Shape::Parametric(it) => scene::Shape::Parametric(Arc::new((**it).clone())),
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
             let (base, apex) = (point(base), point(apex));

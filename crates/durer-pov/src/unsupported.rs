@@ -70,7 +70,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NumberOfTiles
             | Omnimax
             | Once
-            | Parametric
             | PassThrough
             | Pattern
             | Pavement
@@ -78,7 +77,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Png
             | Pot
             | Ppm
-            | Precompute
             | Premultiplied
             | PretraceEnd
             | PretraceStart

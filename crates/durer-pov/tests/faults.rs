@@ -140,14 +140,37 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    for word in ["parametric { 1, 0.5 }", "rainbow { distance 1 }"] {
-        let expected = format!("not supported yet: {}", word.split(' ').next().unwrap());
-        assert_eq!(fault(word).2, expected);
-    }
+    assert_eq!(fault("rainbow { distance 1 }").2, "not supported yet: rainbow");
     assert_eq!(fault("sphere { 0, 1 pigment { tiling 3 } }").2, "not supported yet: tiling");
     assert_eq!(fault("sphere { 0, 1 finish { irid { 0.5 } } }").2, "not supported yet: irid");
     assert_eq!(fault("camera { omnimax }").2, "not supported yet: omnimax");
     assert_eq!(fault("#fopen F \"x\" read").2, "not supported yet: #fopen");
+}
+
+#[test]
+fn parametric_surfaces_say_what_is_wrong_with_them() {
+    let two = "function { u } function { v }";
+    for (text, wanted) in [
+        (
+            format!("parametric {{ {two} <0, 0>, <1, 1> }}"),
+            "a parametric has three functions, this one has 2",
+        ),
+        (format!("parametric {{ {two} function {{ z }} <0, 0>, <1, 1> }}"), "this one uses z"),
+        (format!("parametric {{ {two} function(a) {{ a }} <0, 0>, <1, 1> }}"), "this one has 1"),
+        (
+            format!("parametric {{ {two} function {{ u }} <0, 2>, <1, 1> }}"),
+            "v of this parametric goes from 2 to 1; it must ascend",
+        ),
+        (format!("parametric {{ {two} function {{ floor(u*4) }} <0, 0>, <1, 1> }}"), "its functions jump"),
+        (format!("parametric {{ {two} function {{ u }} }}"), "expected"),
+    ] {
+        let said = read(&text).map(|scene| scene.lower().map(|_| ()).map_err(|error| error.kind.to_string()));
+        let said = match said {
+            Ok(lowered) => lowered.unwrap_err(),
+            Err(error) => error.text.clone(),
+        };
+        assert!(said.contains(wanted), "{text}: {said}");
+    }
 }
 
 #[test]
@@ -230,10 +253,14 @@ fn sweeps_say_what_is_wrong_with_them() {
     says("sweep { path linear_spline 2, x, y }", "this sweep has no `profile`");
     says(&sweep(""), "this sweep has no `path`");
     says(&sweep("path linear_spline 1, x"), "at least 2 points, not 1");
-    says(&sweep("path linear_spline 3, x, y, z"), "a path with corners is not supported yet");
-    says(&sweep("path cubic_spline 4, x, y, z, 0"), "a curved path (cubic_spline) is not supported yet");
+    says(&sweep("path linear_spline 3, 0, y, 0"), "turns by 180 degrees at knot 1");
+    says(&sweep("path linear_spline 3, 0, y, y"), "no tangent at knot 1");
+    says(&sweep("path cubic_spline 3, x, y, z"), "at least 4 points, not 3");
+    says(&sweep("path bezier_spline 5, 0, x, y, z, 0"), "5 is not a multiple of 4");
+    says(&sweep("path bezier_spline 8, 0, x, y, z, x, y, 0, z"), "broken at knot 1");
+    says(&sweep("path bezier_spline 8, 0, x, y, z, z, y, 0, x"), "has a corner at knot 1");
+    says(&sweep("path linear_spline 3, 0, y, x size 3, 1, 0, 1"), "a size must be positive, got 0");
     says(&sweep("path linear_spline 2, x, x"), "both ends of the path are <1, 0, 0>");
-    says(&sweep("path linear_spline 2, x, y twist 30"), "`twist` is not supported yet");
     says(&sweep("path linear_spline 2, 0, y up 2*y"), "up, <0, 2, 0>, must not be parallel to the path");
     says(
         &sweep("path linear_spline 2, 0, y size 3, 1, 2, 3"),

@@ -1,4 +1,4 @@
-//! Functions of x, y and z from a list of steps: what Python's side traces from a text or a callable.
+//! Functions of x, y and z, or of u and v, from a list of steps: what Python's side traces from a text or a callable.
 
 use crate::value_error;
 use durer::math::{Comparison, Function, Interval};
@@ -32,15 +32,15 @@ fn function(name: &str) -> Option<Function> {
     })
 }
 
-/// The formula whose value is that of the last step.
-pub(crate) fn build(steps: &[Step]) -> PyResult<Formula> {
+/// The formula of this many numbers whose value is that of the last step.
+pub(crate) fn build(steps: &[Step], inputs: u32) -> PyResult<Formula> {
     let mut builder = Builder::new();
     let mut nodes: Vec<NodeId> = Vec::with_capacity(steps.len());
     for (name, operands, number) in steps {
         let bad = || value_error(format!("formula: a bad step '{name}'"));
         let operand = |i: usize| operands.get(i).and_then(|&k| nodes.get(k).copied()).ok_or_else(bad);
         let node = match &**name {
-            "input" => builder.input(*number as u32),
+            "input" if *number < f64::from(inputs) => builder.input(*number as u32),
             "constant" => builder.enclosed(Interval { lo: *number, hi: *number }),
             "neg" => builder.push(Op::Neg(operand(0)?)),
             "abs" => builder.push(Op::Abs(operand(0)?)),
@@ -64,5 +64,5 @@ pub(crate) fn build(steps: &[Step]) -> PyResult<Formula> {
         nodes.push(node.map_err(value_error)?);
     }
     let root = *nodes.last().ok_or_else(|| value_error("formula: it has no steps"))?;
-    Ok(builder.finish(root, 3))
+    Ok(builder.finish(root, inputs))
 }

@@ -3,10 +3,11 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
-    Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Scheme,
-    Shape, Spline, StraightSweep, SubdivisionData, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs,
+    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
+    Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
+    Reflection, Rgb, Scene, Scheme, Shape, Spline, StraightSweep, SubdivisionData, Sweep, SweepData,
+    SweepSpline, Terrain, TerrainData, Texture, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -134,10 +135,12 @@ fn prism(outlines: Vec<Vec<[f64; 2]>>, heights: [f64; 2], spline: &str, conic: b
 #[pyfunction]
 fn sweep(
     outlines: Vec<Vec<[f64; 2]>>,
-    path: [[f64; 3]; 2],
-    sizes: [f64; 2],
+    path: Vec<[f64; 3]>,
+    sizes: Vec<f64>,
     up: Option<[f64; 3]>,
     spline: &str,
+    path_spline: &str,
+    twist: f64,
 ) -> PyResult<Object> {
     let spline = match spline {
         "linear" => Spline::Linear,
@@ -148,8 +151,36 @@ fn sweep(
             )));
         }
     };
-    let (path, up) = (path.map(point), up.map(vec3));
-    checked(Shape::StraightSweep(Arc::new(StraightSweep { outlines, spline, path, sizes, up })))
+    let kind = match path_spline {
+        "linear" => PathSpline::Linear,
+        "cubic" => PathSpline::Cubic,
+        "b" => PathSpline::BSpline,
+        "bezier" => PathSpline::Bezier,
+        other => {
+            return Err(value_error(format!(
+                "sweep: the path's spline must be 'linear', 'cubic', 'b' or 'bezier', got '{other}'"
+            )));
+        }
+    };
+    let up = up.map(vec3);
+    if let (PathSpline::Linear, &[from, to], &[start, end], 0.0) = (kind, &path[..], &sizes[..], twist) {
+        let (path, sizes) = ([from, to].map(point), [start, end]);
+        return checked(Shape::StraightSweep(Arc::new(StraightSweep { outlines, spline, path, sizes, up })));
+    }
+    if sizes.len() != path.len() {
+        return Err(value_error(format!(
+            "sweep: {} points need as many sizes, got {}",
+            path.len(),
+            sizes.len()
+        )));
+    }
+    let outlines = outlines.iter().map(|points| match spline {
+        Spline::Curved(curve) => curve.pieces(points),
+        Spline::Linear => SweepData::edges(points),
+    });
+    let path = path.iter().zip(&sizes).map(|(&[x, y, z], &size)| [x, y, z, size]).collect();
+    let data = SweepData { outlines: outlines.collect(), spline: kind, path, twist, up };
+    checked(Shape::PathSweep(PathSweep::new(data).map_err(|error| value_error(error.to_string()))?))
 }
 
 #[pyfunction]
@@ -353,6 +384,33 @@ fn terrain(
     checked(Shape::Terrain(Box::new(terrain)))
 }
 
+/// A box or a ball, if one of them is given.
+fn container(corners: Option<[V3; 2]>, ball: Option<(V3, f64)>) -> PyResult<Option<Container>> {
+    Ok(match (corners, ball) {
+        (None, None) => None,
+        (Some([a, b]), None) => Some(Container::Box(point(a), point(b))),
+        (None, Some((centre, radius))) => Some(Container::Ball(point(centre), radius)),
+        (Some(_), Some(_)) => {
+            return Err(value_error("there are two containers, a box and a ball: give one"));
+        }
+    })
+}
+
+/// The surface of three functions of u and v.
+#[pyfunction]
+fn parametric(
+    functions: [Vec<formula::Step>; 3],
+    domain: [[f64; 2]; 2],
+    container_box: Option<[V3; 2]>,
+    container_ball: Option<(V3, f64)>,
+) -> PyResult<Object> {
+    let [x, y, z] = functions;
+    let of = |steps: Vec<formula::Step>| formula::build(&steps, 2).map(Arc::new);
+    let functions = [of(x)?, of(y)?, of(z)?];
+    let container = container(container_box, container_ball)?;
+    checked(Shape::Parametric(Arc::new(Parametric { functions, domain, container })))
+}
+
 #[pyfunction]
 fn isosurface(
     steps: Vec<formula::Step>,
@@ -360,11 +418,9 @@ fn isosurface(
     container_box: Option<[V3; 2]>,
     container_ball: Option<(V3, f64)>,
 ) -> PyResult<Object> {
-    let function = Arc::new(formula::build(&steps)?);
-    let container = match (container_box, container_ball) {
-        (Some([a, b]), None) => Container::Box(point(a), point(b)),
-        (None, Some((centre, radius))) => Container::Ball(point(centre), radius),
-        _ => return Err(value_error("formula: one container, a box or a ball, must hold the surface")),
+    let function = Arc::new(formula::build(&steps, 3)?);
+    let Some(container) = container(container_box, container_ball)? else {
+        return Err(value_error("formula: a box or a ball must hold the surface"));
     };
     checked(Shape::Isosurface(Box::new(Isosurface { function, threshold, container })))
 }
@@ -372,7 +428,7 @@ fn isosurface(
 /// The value of a formula at some points.
 #[pyfunction]
 fn formula_value(steps: Vec<formula::Step>, point: V3) -> PyResult<f64> {
-    Ok(formula::build(&steps)?.value(&point))
+    Ok(formula::build(&steps, 3)?.value(&point))
 }
 
 #[pyfunction]
@@ -516,6 +572,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sierpinski, module)?)?;
     module.add_function(wrap_pyfunction!(height_field, module)?)?;
     module.add_function(wrap_pyfunction!(terrain, module)?)?;
+    module.add_function(wrap_pyfunction!(parametric, module)?)?;
     module.add_function(wrap_pyfunction!(isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(formula_value, module)?)?;
     module.add_function(wrap_pyfunction!(union, module)?)?;

@@ -34,6 +34,16 @@ KINDS = [
     (durer.Lathe([(1, -1), (1, 1)]), 9 - math.sqrt(1 - 0.01)),
     (durer.Sweep([[(-1, -1), (1, -1), (1, 1), (-1, 1)]], [(0, 0, -1), (0, 0, 1)]), 8),
     (durer.Sweep([[(-1, -1), (1, -1), (1, 1), (-1, 1)]], [(0, 0, 2), (0, 0, 0)], (0.5, 2), (0, 1, 0)), 7),
+    (durer.Sweep([[(-1, -1), (1, -1), (1, 1), (-1, 1)]], [(0, 0, -1), (0, 0, 0), (0, 0, 1)], (1, 1, 1)), 8),
+    (
+        durer.Sweep(
+            [[(-1, -1), (1, -1), (1, 1), (-1, 1)]],
+            [(0, 0, -2), (0, 0, -1), (0, 0, 1), (0, 0, 2)],
+            path_spline="cubic",
+            twist=1.0,
+        ),
+        8,
+    ),
     (durer.BezierPatch([[(-1, -1, 1), (1, -1, 1)], [(-1, 1, 1), (1, 1, 1)]]), 8),
     (durer.BezierPatch([[(-1, -1, 1, 1), (1, -1, 1, 2)], [(-1, 1, 1, 1), (1, 1, 1, 1)]]), 8),
     (durer.Nurbs([[(-2, -2, 1), (0, -2, 1), (2, -2, 1)], [(-2, 2, 1), (0, 2, 1), (2, 2, 1)]], (2, 1)), 8),
@@ -70,6 +80,8 @@ KINDS = [
     (durer.Ifs([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], [0.5 * np.eye(3, 4)], 0), None),
     (durer.HeightField([[0, 0.5], [0.25, 1]]).rotated((1, 0, 0), 1.5), None),
     (durer.Terrain(3, seed=4, corners=(0, 0.5, 0, 0.5)).rotated((1, 0, 0), 1.5), None),
+    (durer.parametric("u", "v", "1 + 0*u", u=(-1, 1), v=(-1, 1)), 8),
+    (durer.parametric("u", "v", "u*v", u=(-2, 2), v=(-2, 2), ball=((0, 0, 0), 2)), 9 - 0.02),
     (durer.formula("x*x + y*y + z*z - 1"), 9 - math.sqrt(1 - 0.05)),
     (durer.Union(durer.Sphere((0, 0, 0), 1), durer.Box((0, 0, 0), (1, 1, 2))), 7),
     (durer.Sphere((0, 0, 0), 1) | durer.Box((0, 0, 0), (1, 1, 2)), 7),
@@ -95,7 +107,7 @@ def test_each_kind_is_met_and_pickles(thing, t):
     assert type(back) is type(thing) and repr(back) == repr(thing)
     again = durer.Scene([back]).closest(ray)
     assert np.array_equal(again.t, hits.t) and np.array_equal(again.t_lo, hits.t_lo)
-    if isinstance(thing, (durer.Mesh, durer.Formula, durer.Deformed)):
+    if isinstance(thing, (durer.Mesh, durer.Formula, durer.Parametric, durer.Deformed)):
         return
     made = eval(repr(thing), vars(durer))  # noqa: S307
     assert repr(made) == repr(thing)
@@ -125,6 +137,9 @@ def test_each_kind_is_met_and_pickles(thing, t):
         (lambda: durer.formula("x^2"), r"powers are written \*\*"),
         (lambda: durer.formula("x + w"), "'w' is unknown"),
         (lambda: durer.formula("__import__('os')"), "no function"),
+        (lambda: durer.parametric("u", "v", "x", u=(0, 1), v=(0, 1)), "'x' is unknown; there are u, v"),
+        (lambda: durer.parametric("u", "v", "u", u=(1, 0), v=(0, 1)), "u must go from a number to a greater one"),
+        (lambda: durer.parametric("u", "v", "floor(9*u)", u=(0, 1), v=(0, 1)), "jump"),
         (lambda: durer.Camera((0, 0, 0), (0, 0, 0)), "target"),
     ],
 )

@@ -52,8 +52,8 @@ pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
 pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
-    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Patch, Prism, QuadricKind,
-    Shape, Spline, StraightSweep, Sweep,
+    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch, Prism,
+    QuadricKind, Shape, Spline, StraightSweep, Sweep,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;
@@ -66,3 +66,5 @@ pub use durer_surfaces::{
     BlobComponent, BlobShape, Boundary, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData,
     NurbsError, Scheme, SubdivisionData, SubdivisionError, SweepSpline, Terrain, TerrainData, Warp, tape,
 };
+/// A profile swept along any path.
+pub use durer_surfaces::{PathSpline, PathSweep, SweepData, SweepError};

@@ -7,9 +7,8 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SubdivisionData, SweepSpline,
-    Terrain,
-    Texture, Warp,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep,
+    SubdivisionData, SweepSpline, Terrain, Texture, Warp,
 };
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
@@ -121,6 +120,8 @@ pub enum Shape {
     Prism(Arc<Prism>),
     /// A profile carried along a straight path.
     StraightSweep(Arc<StraightSweep>),
+    /// A profile carried along any path.
+    PathSweep(PathSweep),
     /// All balls whose centres and radii follow a spline of these: centre and radius each.
     SphereSweep(SweepSpline, Arc<[[f64; 4]]>),
     /// A smooth curve through these points, a radius and a height each, turned about the y axis;
@@ -135,6 +136,8 @@ pub enum Shape {
     Nurbs(Arc<NurbsData>),
     /// The limit surface of a mesh of polygons that is refined for ever; a solid if it is closed.
     Subdivision(Arc<SubdivisionData>),
+    /// Three functions of two parameters.
+    Parametric(Arc<Parametric>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.
@@ -218,6 +221,18 @@ pub struct Isosurface {
     /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the
     /// object is open.
     pub container: Container,
+}
+
+/// The surface of three functions of u and v; the stored normal is the cross product of its slopes
+/// along u and v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parametric {
+    /// The functions of x, y and z, of two numbers each.
+    pub functions: [Arc<Formula>; 3],
+    /// From where to where u goes, and v.
+    pub domain: [[f64; 2]; 2],
+    /// What cuts the surface off. Without it the surface must be bounded.
+    pub container: Option<Container>,
 }
 
 /// A solid and what is done to it, in this order. All of it is one surface with one texture.

@@ -62,6 +62,7 @@ pub mod mesh;
 pub mod ovus;
 pub mod packet;
 pub mod parallelogram;
+pub mod parametric;
 pub mod patch;
 mod planar;
 pub mod plane;
@@ -106,9 +107,10 @@ pub use crate::lemon::LemonError;
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
+pub use crate::parametric::{Parametric, ParametricError, PathSpline, PathSweep, SweepData, SweepError};
 pub use crate::patch::{
-    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, SubdivisionData, SubdivisionError,
-    SubdivisionSurface,
+    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, SubdivisionData,
+    SubdivisionError, SubdivisionSurface,
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

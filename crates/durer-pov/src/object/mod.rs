@@ -7,6 +7,7 @@ mod ifs;
 mod julia;
 mod mesh;
 mod modifiers;
+mod parametric;
 mod patch;
 pub(crate) mod queries;
 mod shapes;
@@ -101,6 +102,7 @@ pub(crate) enum Shape {
     },
     Prism(Rc<durer_scene::Prism>),
     Sweep(Rc<durer_scene::StraightSweep>),
+    PathSweep(durer_scene::PathSweep),
     /// Centre and radius each.
     SphereSweep(durer_scene::SweepSpline, Rc<[[f64; 4]]>),
     /// Radii and heights.
@@ -110,6 +112,7 @@ pub(crate) enum Shape {
     Patch(Rc<durer_scene::Patch>),
     Nurbs(Rc<durer_scene::NurbsData>),
     Subdivision(Rc<durer_scene::SubdivisionData>),
+    Parametric(Rc<durer_scene::Parametric>),
     Ovus {
         bottom: f64,
         top: f64,
@@ -285,6 +288,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Sor
             | Lathe
             | BicubicPatch
+            | Parametric
             | Ovus
             | Cubic
             | Quartic

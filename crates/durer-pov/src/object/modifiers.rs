@@ -61,6 +61,8 @@ impl Parser<'_> {
                             | Shape::Named(_)
                             | Shape::Isosurface(..)
                             | Shape::Prism(_)
+                            | Shape::Sweep(_)
+                            | Shape::PathSweep(_)
                             | Shape::Sor(_)
                             | Shape::Lemon { .. }
                     ) =>

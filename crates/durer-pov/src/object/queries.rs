@@ -289,6 +289,11 @@ impl Parser<'_> {
                 scene::Container::Box(a, b) => Extent::of([[a.x, a.y, a.z], [b.x, b.y, b.z]]),
                 scene::Container::Ball(c, radius) => Extent::around([c.x, c.y, c.z], [radius; 3]),
             },
+            Shape::Parametric(it) => match it.container {
+                Some(scene::Container::Box(a, b)) => Extent::of([[a.x, a.y, a.z], [b.x, b.y, b.z]]),
+                Some(scene::Container::Ball(c, radius)) => Extent::around([c.x, c.y, c.z], [radius; 3]),
+                None => Extent::EMPTY,
+            },
             other => {
                 // Its bounds in the kernel, from the shape alone.
                 let alone = match other {

@@ -154,6 +154,7 @@ impl Parser<'_> {
             Keyword::Sor => self.sor()?,
             Keyword::Lathe => self.lathe(place)?,
             Keyword::BicubicPatch => self.bicubic_patch(place)?,
+            Keyword::Parametric => self.parametric(place)?,
             Keyword::Ovus => self.ovus(place)?,
             Keyword::Cubic => self.coefficients(3, place)?,
             Keyword::Quartic => self.coefficients(4, place)?,

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use durer_scene::{Curve, Spline, StraightSweep};
+use durer_scene::{Curve, PathSpline, PathSweep, Spline, StraightSweep, SweepData};
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
@@ -14,7 +14,7 @@ impl Parser<'_> {
     /// The profiles, the path and the settings of a sweep, after its opening brace.
     pub(super) fn sweep(&mut self, place: Place) -> Result<Shape> {
         let (mut outlines, mut spline, mut path) = (Vec::new(), None, None);
-        let (mut sizes, mut up) = ([1.0; 2], None);
+        let (mut sizes, mut up, mut twist) = (None, None, 0.0);
         loop {
             self.skip_comma()?;
             self.peek()?;
@@ -22,13 +22,11 @@ impl Parser<'_> {
             if self.small_word("profile")? {
                 self.profiles(&mut outlines, &mut spline, place)?;
             } else if self.small_word("path")? {
-                path = Some((self.straight_path()?, at));
+                path = Some((self.sweep_path()?, at));
             } else if self.take_word(Keyword::Size)? {
-                sizes = self.sweep_sizes()?;
+                sizes = Some((self.sweep_sizes()?, at));
             } else if self.small_word("twist")? {
-                if self.float()? != 0.0 {
-                    return Err(Error::invalid(at, "a sweep with `twist` is not supported yet"));
-                }
+                twist = self.float()?;
             } else if self.take_word(Keyword::Up)? {
                 up = Some(vector(self.corner()?));
             } else {
@@ -38,12 +36,34 @@ impl Parser<'_> {
         let Some(spline) = spline else {
             return Err(Error::invalid(place, "this sweep has no `profile`"));
         };
-        let Some((path, at)) = path else {
+        let Some(((kind, path), at)) = path else {
             return Err(Error::invalid(place, "this sweep has no `path`"));
         };
-        let sweep = StraightSweep { outlines, spline, path: path.map(point), sizes, up };
-        sweep.straight_path().map_err(|why| Error::invalid(at, why.to_string()))?;
-        Ok(Shape::Sweep(Rc::new(sweep)))
+        let sizes = match sizes {
+            Some((sizes, at)) if sizes.len() != path.len() => {
+                let (wanted, count) = (path.len(), sizes.len());
+                let text =
+                    format!("`size` has one number for each of the {wanted} points of the path, not {count}");
+                return Err(Error::invalid(at, text));
+            }
+            Some((sizes, _)) => sizes,
+            None => vec![1.0; path.len()],
+        };
+        if let (PathSpline::Linear, &[from, to], &[start, end], 0.0) = (kind, &path[..], &sizes[..], twist) {
+            let (path, sizes) = ([from, to].map(point), [start, end]);
+            let sweep = StraightSweep { outlines, spline, path, sizes, up };
+            sweep.straight_path().map_err(|why| Error::invalid(at, why.to_string()))?;
+            return Ok(Shape::Sweep(Rc::new(sweep)));
+        }
+        let path = path.iter().zip(sizes).map(|(&[x, y, z], size)| [x, y, z, size]).collect();
+        let outlines = outlines.iter().map(|points| match spline {
+            Spline::Linear => SweepData::edges(points),
+            Spline::Curved(curve) => curve.pieces(points),
+        });
+        let data =
+            SweepData { outlines: outlines.collect(), spline: kind, path, twist: twist.to_radians(), up };
+        let sweep = PathSweep::new(data).map_err(|why| Error::invalid(at, why.to_string()))?;
+        Ok(Shape::PathSweep(sweep))
     }
 
     /// One or more closed curves, separated by commas. All are of the same spline.
@@ -76,45 +96,61 @@ impl Parser<'_> {
         }
     }
 
-    /// `linear_spline 2, from, to`.
-    fn straight_path(&mut self) -> Result<[[f64; 3]; 2]> {
+    /// The spline of the path and its points.
+    fn sweep_path(&mut self) -> Result<(PathSpline, Vec<[f64; 3]>)> {
         self.peek()?;
         let at = self.here();
-        for (keyword, name) in [
-            (Keyword::CubicSpline, "cubic_spline"),
-            (Keyword::BSpline, "b_spline"),
-            (Keyword::BezierSpline, "bezier_spline"),
-        ] {
-            if self.take_word(keyword)? {
-                let text = format!("a sweep along a curved path ({name}) is not supported yet");
-                return Err(Error::invalid(at, text));
+        let kinds = [
+            (Keyword::LinearSpline, PathSpline::Linear),
+            (Keyword::CubicSpline, PathSpline::Cubic),
+            (Keyword::BSpline, PathSpline::BSpline),
+            (Keyword::BezierSpline, PathSpline::Bezier),
+        ];
+        let mut found = None;
+        for (keyword, kind) in kinds {
+            if found.is_none() && self.take_word(keyword)? {
+                found = Some(kind);
             }
         }
-        if !self.take_word(Keyword::LinearSpline)? {
+        let Some(kind) = found else {
             let lexeme = self.next()?;
             return Err(self.unexpected(&lexeme, "linear_spline, cubic_spline, b_spline or bezier_spline"));
+        };
+        let count = self.point_count("the path of a sweep", kind.least() as u32)?;
+        if kind == PathSpline::Bezier && count % 4 != 0 {
+            let text = format!(
+                "a path of bezier_spline has four points for each span, {count} is not a multiple of 4"
+            );
+            return Err(Error::invalid(at, text));
         }
-        if self.point_count("the path of a sweep", 2)? > 2 {
-            return Err(Error::invalid(at, "a sweep along a path with corners is not supported yet"));
+        let mut points = Vec::new();
+        for n in 0..count {
+            self.peek()?;
+            let here = self.here();
+            points.push(self.corner()?);
+            self.check_memory(n * 4096, here)?;
         }
-        let from = self.corner()?;
-        let to = self.corner()?;
-        self.skip_comma()?;
-        Ok([from, to])
+        Ok((kind, points))
     }
 
-    /// `2, size, size`.
-    fn sweep_sizes(&mut self) -> Result<[f64; 2]> {
+    /// `count, size, ...`.
+    fn sweep_sizes(&mut self) -> Result<Vec<f64>> {
         self.peek()?;
         let at = self.here();
         let count = self.float()?;
         self.skip_comma()?;
-        if count != 2.0 {
-            let text = format!("`size` has one number for each of the 2 points of the path, not {count}");
-            return Err(Error::invalid(at, text));
+        if !(1.0..1e6).contains(&count) {
+            return Err(Error::invalid(
+                at,
+                format!("`size` has one number for each point of the path, not {count}"),
+            ));
         }
-        let start = self.float()?;
-        self.skip_comma()?;
-        Ok([start, self.float()?])
+        let mut sizes = Vec::new();
+        for n in 0..count as usize {
+            sizes.push(self.float()?);
+            self.skip_comma()?;
+            self.check_memory(n * 8, at)?;
+        }
+        Ok(sizes)
     }
 }

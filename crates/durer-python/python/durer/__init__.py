@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from . import _native
 from ._camera import Camera
-from ._formula import Expression, Formula, formula, where
+from ._formula import Expression, Formula, Parametric, formula, parametric, where
 from ._objects import (
     BezierPatch,
     Blob,
@@ -151,6 +151,8 @@ __all__ = [
     "Ovus",
     "ParabolicCylinder",
     "Parallelogram",
+    "Parametric",
+    "parametric",
     "Picture",
     "Placed",
     "Plane",

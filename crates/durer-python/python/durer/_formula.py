@@ -1,4 +1,4 @@
-"""Formulas: functions of x, y and z, from a text or from a Python callable that is traced."""
+"""Formulas: functions of x, y and z, or of u and v, from a text or from a Python callable that is traced."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Step = tuple[str, tuple[int, ...], float]
 
 
 class Expression:
-    """A value that depends on x, y and z while a formula is traced.
+    """A value that depends on x, y and z (or u and v) while a formula is traced.
 
     Python's operators, `abs`, `min` and `max` by this module's functions of these names, and NumPy's functions of one or
     two numbers (`np.sin`, `np.sqrt`, `np.minimum` ...) work on it. It has no truth value: use `durer.where(a, b, c)`.
@@ -287,23 +287,27 @@ class _Reader:
         raise self.fail(node, "this cannot be part of a formula")
 
 
-def trace(function: str | Callable[..., Any], constants: dict[str, float]) -> tuple[Step, ...]:
-    """The steps of a formula."""
+def trace(function: str | Callable[..., Any], constants: dict[str, float], inputs: str = "xyz") -> tuple[Step, ...]:
+    """The steps of a formula of these inputs, one letter each."""
     tape = _Tape()
-    x, y, z = (tape.push("input", (), float(axis)) for axis in range(3))
+    symbols = {name: tape.push("input", (), float(axis)) for axis, name in enumerate(inputs)}
     if isinstance(function, str):
         try:
             tree = ast.parse(function.strip(), mode="eval")
         except SyntaxError as error:
             raise ValueError(f"formula: {error.msg}\n  {function}") from None
-        names: dict[str, Any] = {"x": x, "y": y, "z": z, "pi": math.pi, "e": math.e, **constants}
+        names: dict[str, Any] = {**symbols, "pi": math.pi, "e": math.e, **constants}
         result = _Reader(function.strip(), names).value(tree.body)
     else:
-        result = function(x, y, z, **constants)
+        result = function(*symbols.values(), **constants)
     index = tape.index(result)
     # The last step is the value.
     steps = tape.steps[: index + 1]
     return tuple(steps)
+
+
+def _text(function: str | Callable[..., Any]) -> str:
+    return repr(function) if isinstance(function, str) else getattr(function, "__name__", "callable")
 
 
 class Formula(Object):
@@ -393,9 +397,100 @@ def formula(
     0.75
     """
     steps = trace(function, {name: number(value, name) for name, value in constants.items()})
-    text = repr(function) if isinstance(function, str) else getattr(function, "__name__", "callable")
+    text = _text(function)
     if box is None and ball is None:
         box = ((-10.0,) * 3, (10.0,) * 3)
     corners = None if box is None else (vector(box[0], "box"), vector(box[1], "box"))
     held = None if ball is None else (vector(ball[0], "ball"), number(ball[1], "ball"))
     return Formula(text, steps, number(threshold, "threshold"), corners, held)
+
+
+class Parametric(Object):
+    """The surface of three functions of u and v over a rectangle of parameters; an open surface.
+
+    Made by :func:`durer.parametric`.
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        texts: tuple[str, str, str],
+        functions: tuple[tuple[Step, ...], ...],
+        u: tuple[float, float],
+        v: tuple[float, float],
+        box: tuple[Any, Any] | None,
+        ball: tuple[Any, float] | None,
+    ) -> None:
+        native = _native.parametric(
+            [[(name, list(operands), value) for name, operands, value in steps] for steps in functions],
+            [list(u), list(v)],
+            None if box is None else [list(box[0]), list(box[1])],
+            None if ball is None else (list(ball[0]), ball[1]),
+        )
+        self._set(native, (texts, functions, u, v, box, ball))
+
+    def __repr__(self) -> str:
+        texts, _, u, v, box, ball = self._arguments
+        parts = [*texts, f"u={u!r}", f"v={v!r}"]
+        if box is not None:
+            parts.append(f"box={box!r}")
+        if ball is not None:
+            parts.append(f"ball={ball!r}")
+        return f"parametric({', '.join(parts)})"
+
+
+def parametric(
+    x: str | Callable[..., Any],
+    y: str | Callable[..., Any],
+    z: str | Callable[..., Any],
+    *,
+    u: tuple[float, float],
+    v: tuple[float, float],
+    box: tuple[Any, Any] | None = None,
+    ball: tuple[Any, float] | None = None,
+    **constants: float,
+) -> Parametric:
+    """The surface of the points ``(x(u, v), y(u, v), z(u, v))``, met without tessellation.
+
+    Parameters
+    ----------
+    x, y, z : str or callable
+        Functions of u and v: texts or callables, as for :func:`durer.formula`.
+    u, v : (float, float)
+        From where to where the parameters go. Where the surface comes back to itself, as at 0 and 2 pi, a ray meets it once.
+    box : pair of points, optional
+        Two opposite corners; what is outside is cut off. Without a box or a ball the surface must be bounded.
+    ball : (point, float), optional
+        Centre and radius of a ball that cuts.
+    **constants
+        More names for the texts, or keyword arguments of the callables.
+
+    Returns
+    -------
+    Parametric
+        An open surface. Its texture coordinates are (u, v), its normal points along the cross product of its slopes.
+
+    Raises
+    ------
+    ValueError
+        If a text cannot be read, a domain does not ascend, a function jumps, or nothing is in the container.
+
+    Examples
+    --------
+    >>> import math
+    >>> import durer
+    >>> turn = (0, 2 * math.pi)
+    >>> ring = durer.parametric(
+    ...     "(2 + r*cos(v)) * cos(u)", "(2 + r*cos(v)) * sin(u)", "r*sin(v)", u=turn, v=turn, r=0.5
+    ... )
+    >>> hits = durer.Scene([ring]).closest([[-5, 0, 0]], [[1, 0, 0]])
+    >>> round(float(hits.t[0]), 12)
+    2.5
+    """
+    values = {name: number(value, name) for name, value in constants.items()}
+    functions = tuple(trace(function, values, "uv") for function in (x, y, z))
+    corners = None if box is None else (vector(box[0], "box"), vector(box[1], "box"))
+    held = None if ball is None else (vector(ball[0], "ball"), number(ball[1], "ball"))
+    ends = [(number(a, name), number(b, name)) for name, (a, b) in (("u", u), ("v", v))]
+    return Parametric((_text(x), _text(y), _text(z)), functions, ends[0], ends[1], corners, held)

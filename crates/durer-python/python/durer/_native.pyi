@@ -48,6 +48,7 @@ __all__ = [
     "nurbs",
     "ovus",
     "parallelogram",
+    "parametric",
     "placed",
     "plane",
     "polygon",
@@ -208,6 +209,8 @@ def sweep(
     sizes: _Numbers,
     up: _Numbers | None,
     spline: str,
+    path_spline: str,
+    twist: float,
 ) -> Object: ...
 def sphere_sweep(spheres: Sequence[_Numbers], spline: str) -> Object: ...
 def surface_of_revolution(points: Sequence[_Numbers]) -> Object: ...
@@ -251,6 +254,12 @@ def height_field(
 ) -> Object: ...
 def terrain(
     levels: int, numbers: _Numbers, seed: int, corners: _Numbers, water_level: float | None, smooth: bool
+) -> Object: ...
+def parametric(
+    functions: Sequence[Sequence[_Step]],
+    domain: Sequence[_Numbers],
+    container_box: Sequence[_Numbers] | None,
+    container_ball: tuple[_Numbers, float] | None,
 ) -> Object: ...
 def isosurface(
     steps: Sequence[_Step],

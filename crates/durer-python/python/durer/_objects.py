@@ -463,11 +463,14 @@ class Prism(Object):
 
 @final
 class Sweep(Object):
-    """Closed outlines, arrays (n, 2), moved along a straight path, an array (2, 3) of its ends.
+    """Closed outlines, arrays (n, 2), moved along a path, an array (n, 3) of points.
 
-    The profile's size goes evenly from `sizes[0]` to `sizes[1]`. Its second axis points to the side of `up`; without
-    `up`, the smallest rotation of z onto the path turns x and y into its axes. `spline` says how an outline goes through
-    its points: "linear" or "bezier" (four points for each piece).
+    `spline` says how an outline goes through its points: "linear" or "bezier" (four points for each piece);
+    `path_spline` how the path does: "linear" (with mitred corners), "cubic" (through all points but the first and the
+    last), "b" or "bezier". `sizes` has the profile's size at each point, along the same spline; without it, 1. The
+    profile's second axis points to the side of `up`; without `up`, the smallest rotation of z onto the path turns x and y
+    into its axes, and from there on they turn as little as can be. `twist` is the whole turn about the path in radians.
+    A solid with flat caps.
     """
 
     __slots__ = ()
@@ -476,19 +479,20 @@ class Sweep(Object):
         self,
         outlines: Iterable[npt.ArrayLike],
         path: npt.ArrayLike,
-        sizes: npt.ArrayLike = (1.0, 1.0),
+        sizes: npt.ArrayLike | None = None,
         up: npt.ArrayLike | None = None,
         spline: str = "linear",
+        path_spline: str = "linear",
+        twist: float = 0.0,
     ) -> None:
         loops = tuple(_rows(outline, 2, "outlines") for outline in outlines)
-        ends = _rows(path, 3, "path")
-        if len(ends) != 2:
-            raise ValueError(f"path: shape (2, 3) is needed, got ({len(ends)}, 3)")
-        both = real_array(sizes, "sizes")
-        if both.shape != (2,):
-            raise ValueError(f"sizes: shape (2,) is needed, got {both.shape}")
+        points = _rows(path, 3, "path")
+        given = np.ones(len(points)) if sizes is None else real_array(sizes, "sizes")
+        if given.shape != (len(points),):
+            raise ValueError(f"sizes: shape ({len(points)},) is needed, got {given.shape}")
         side = None if up is None else vector(up, "up")
-        arguments = (loops, ends, (float(both[0]), float(both[1])), side, str(spline))
+        all_sizes = tuple(float(size) for size in given)
+        arguments = (loops, points, all_sizes, side, str(spline), str(path_spline), number(twist, "twist"))
         self._set(_native.sweep(*arguments), arguments)
 
 

@@ -6,8 +6,9 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
-    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Parallelogram, Parametric, ParametricError, PatchError, Plane, Polygon, PolygonError, Prism, Quadric,
+    Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface,
+    SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -117,6 +118,11 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             let all = path.placement().then(place)?;
             prism(&shape.outlines, shape.spline, path.heights(), sweep, open, Some(&all), &mut target)?;
         }
+        Shape::PathSweep(sweep) => {
+            let sweep = sweep.clone();
+            target.contain(&sweep, map);
+            target.add_rare(if open { sweep.without_caps() } else { sweep }, map);
+        }
         Shape::SphereSweep(spline, spheres) => match SphereSweep::new(*spline, spheres) {
             Err(nothing @ SphereSweepError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
@@ -139,6 +145,14 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             Err(nothing @ SubdivisionError::Nothing(_)) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
+        Shape::Parametric(it) => {
+            let container = it.container.map(container).transpose()?;
+            let functions = it.functions.each_ref().map(|f| &**f);
+            match Parametric::new(functions, it.domain, container.as_ref()) {
+                Err(nothing @ ParametricError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+                made => add_closed(&mut target, made.map_err(shape_error)?, map),
+            }
+        }
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
         }
@@ -545,13 +559,14 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "a torus",
         Shape::Cyclide { .. } => "a cyclide",
         Shape::Prism(_) => "a prism",
-        Shape::StraightSweep(_) => "a sweep",
+        Shape::StraightSweep(_) | Shape::PathSweep(_) => "a sweep",
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
         Shape::Nurbs(_) => "a nurbs surface",
         Shape::Subdivision(_) => "a subdivision surface",
+        Shape::Parametric(_) => "a parametric",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

@@ -23,19 +23,19 @@ const MARGINS: [[f64; 2]; 2] = [[-MARGIN, 1.0 + MARGIN]; 2];
 
 /// A ray whose largest component of direction is the third.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
-    axes: [usize; 3],
-    o: [f64; 3],
-    o_err: [f64; 3],
-    d_z: f64,
+pub(crate) struct Line {
+    pub(crate) axes: [usize; 3],
+    pub(crate) o: [f64; 3],
+    pub(crate) o_err: [f64; 3],
+    pub(crate) d_z: f64,
     d_z_err: f64,
-    slope: [f64; 2],
-    slope_err: [f64; 2],
+    pub(crate) slope: [f64; 2],
+    pub(crate) slope_err: [f64; 2],
 }
 
 impl Line {
     #[inline(always)]
-    pub(super) fn new(at: &CentredRay<'_>) -> Self {
+    pub(crate) fn new(at: &CentredRay<'_>) -> Self {
         let d = at.d.abs();
         // An even permutation: it keeps the sign of determinants.
         let axes = if d.x > d.y && d.x > d.z {
@@ -55,6 +55,16 @@ impl Line {
             slope_err[i] = (size.mul_add(d_err[2], d_err[i]) / known + U * size) * ROUNDED;
         }
         Self { axes, o, o_err, d_z: d[2], d_z_err: d_err[2], slope, slope_err }
+    }
+
+    /// The parameter at which the third coordinate, counted from the origin, is `z`, which is off by
+    /// `z_err` at most; and how far off that may be.
+    #[inline(always)]
+    pub(crate) fn along(&self, z: f64, z_err: f64) -> (f64, f64) {
+        let s = z / self.d_z;
+        let known = (self.d_z.abs() - self.d_z_err).max(0.0);
+        let err = (s.abs().mul_add(self.d_z_err, z_err) / known + U * s.abs()) * ROUNDED;
+        (s, err)
     }
 }
 
@@ -306,15 +316,6 @@ impl<'a> View<'a> {
         x.mul_add(self.cell.width[k], self.cell.from[k])
     }
 
-    /// The line's parameter at a point of the cell, where its third coordinate is off by `z_err`.
-    #[inline(always)]
-    fn along(&self, z: f64, z_err: f64) -> (f64, f64) {
-        let s = z / self.line.d_z;
-        let known = (self.line.d_z.abs() - self.line.d_z_err).max(0.0);
-        let err = (s.abs().mul_add(self.line.d_z_err, z_err) / known + U * s.abs()) * ROUNDED;
-        (s, err)
-    }
-
     /// A proven zero as a crossing.
     #[inline(always)]
     pub(super) fn found(&self, zero: &Zero) -> Found {
@@ -340,7 +341,7 @@ impl<'a> View<'a> {
             + (cell.e_net + cell.e_point + cell.e_slope * (ru + rv)) * (1.0 + weight_err) / w
             + self.o_err[2]
             + 2.0 * U * (z.abs() + self.o[2].abs() + (p[z_axis] / w).abs());
-        let (s, s_err) = self.along(z, z_err * ROUNDED);
+        let (s, s_err) = self.line.along(z, z_err * ROUNDED);
         let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
         Found {
             face: cell.face,
@@ -381,7 +382,7 @@ impl<'a> View<'a> {
             + 4.0 * (cell.e_net + cell.e_point) / cell.weights[1] * (1.0 + self.o[2].abs() / cell.weights[1])
             + self.o_err[2]
             + 2.0 * U * (z.abs() + self.o[2].abs() + cell.reach);
-        let (s, s_err) = self.along(z, z_err * ROUNDED);
+        let (s, s_err) = self.line.along(z, z_err * ROUNDED);
         Found {
             face: cell.face,
             uv: [self.in_patch(0, x[0]), self.in_patch(1, x[1])],

@@ -29,7 +29,7 @@
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes")]
 
 mod cell;
-mod line;
+pub(crate) mod line;
 mod net;
 mod nurbs;
 mod point;

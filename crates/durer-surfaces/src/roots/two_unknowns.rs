@@ -73,7 +73,7 @@ pub(crate) struct Zero {
 
 /// An approximate inverse of the slopes.
 #[inline(always)]
-fn inverse(j: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+pub(crate) fn inverse(j: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let det = j[0][0].mul_add(j[1][1], -(j[0][1] * j[1][0]));
     let by = 1.0 / det;
     let y = [[j[1][1] * by, -j[0][1] * by], [-j[1][0] * by, j[0][0] * by]];
@@ -200,6 +200,29 @@ impl Limits {
     }
 }
 
+/// One zero in the box of half-width `r` about a point, if that can be proven. `at` has the values at
+/// the point, off by `e` at most, and slopes that are off by `e_j` at most anywhere in the box.
+///
+/// For functions whose slopes are bounded on boxes, as those of formulas are by intervals: nothing
+/// is asked of second derivatives.
+#[inline(always)]
+pub(crate) fn zero_in(at: &Local, (e, e_j): (&[f64; 2], &[f64; 2]), r: f64) -> Option<Zero> {
+    let y = inverse(&at.j)?;
+    let (mut x, mut radius) = ([0.0; 2], [0.0; 2]);
+    for i in 0..2 {
+        let step = y[i][0].mul_add(at.f[0], y[i][1] * at.f[1]);
+        let noise = sized(&y[i], e) + 4.0 * U * sized(&y[i], &[at.f[0].abs(), at.f[1].abs()]);
+        radius[i] = residual(&y[i], i, &at.j, e_j).mul_add(r, noise) * ROUNDED;
+        if (step.abs() + radius[i]) * ROUNDED < r {
+            x[i] = -step;
+        } else {
+            return None;
+        }
+    }
+    let det = at.j[0][0].mul_add(at.j[1][1], -(at.j[0][1] * at.j[1][0]));
+    Some(Zero { x, radius, alone: r, sign: if det > 0.0 { 1 } else { -1 } })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,6 +247,18 @@ mod tests {
         assert!(zero.x[0].abs() <= zero.radius[0] && (zero.x[1] - 0.8).abs() <= zero.radius[1]);
         assert!(zero.radius[0].max(zero.radius[1]) < 64.0 * U, "{zero:?}");
         assert!(zero.alone > 0.1, "{zero:?}");
+    }
+
+    #[test]
+    fn a_zero_is_proven_by_slopes_on_a_box() {
+        let (at, r) = (circles(0.6)([0.0, 0.8 + 1e-6]), 1e-4);
+        // The slopes change by 2 r.
+        let zero = zero_in(&at, (&LIMITS.e, &[2.0 * r; 2]), r).unwrap();
+        assert!(zero.x[0].abs() <= zero.radius[0] && (zero.x[1] + 1e-6).abs() <= zero.radius[1]);
+        assert!(zero.radius[1] < 1e-7, "{zero:?}");
+        assert!(zero_in(&circles(0.6)([0.0, 0.81]), (&LIMITS.e, &[2.0 * r; 2]), r).is_none());
+        let at = circles(1.0)([0.0, 0.0]);
+        assert!(zero_in(&at, (&LIMITS.e, &[2.0 * r; 2]), r).is_none());
     }
 
     #[test]

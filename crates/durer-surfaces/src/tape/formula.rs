@@ -244,6 +244,11 @@ impl Builder {
         Self::default()
     }
 
+    /// The steps so far.
+    pub(super) fn ops(&self) -> &[Op] {
+        &self.ops
+    }
+
     /// The input with this number.
     pub fn input(&mut self, number: u32) -> Result<NodeId, FormulaError> {
         self.push(Op::Input(number))

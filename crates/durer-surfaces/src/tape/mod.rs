@@ -14,10 +14,12 @@ mod formula;
 mod jumps;
 mod powers;
 mod program;
+mod vector;
 
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};
 pub(crate) use powers::Powers;
 pub use program::Tape;
+pub(crate) use vector::{VectorTape, lanes};
 
 use durer_math::{F8, I8, Interval};
 

@@ -1,0 +1,109 @@
+//! Cutting a map into pieces, ahead of all rays: until each is so flat that a ray which is not
+//! nearly tangent meets it at most once, and finds that crossing by Newton's method.
+//!
+//! Pieces outside of the container are left out. So are parts in which nothing is defined, and what
+//! is left around a pole of the formula, where it has no bounds, after fifty halvings or where there
+//! are too many pieces.
+
+use super::Bounds;
+use super::piece::{Face, Piece, Unit};
+use std::collections::VecDeque;
+
+/// A piece is flat if its slopes change by less than this part of themselves, seen along the
+/// normal.
+const FLAT: f64 = 0.25;
+/// No piece is halved more often than this along one parameter, unless it has no bounds.
+const FINEST: u32 = 10;
+/// What has no bounds after so many halvings along one parameter is left out.
+const UNBOUNDED: u32 = 50;
+/// No map is cut into many more pieces than this.
+const MOST: usize = 1 << 14;
+/// A piece that may jump and is cut as finely as can be is at most this part of the whole large,
+/// unless it does jump.
+const TORN: f64 = 1.0 / 64.0;
+
+/// Why there are no pieces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Refused {
+    /// The map is torn near this place.
+    Jump([f64; 2]),
+    /// It is unbounded, and no container bounds it.
+    Unbounded([f64; 2]),
+}
+
+struct Open {
+    piece: Piece,
+    halved: [u32; 2],
+}
+
+/// The pieces of a map, in its own units.
+pub(super) fn pieces(face: &Face, number: u32, bounds: &Bounds, out: &mut Vec<Piece>) -> Result<(), Refused> {
+    let first = out.len();
+    let mut made = Vec::new();
+    face.pieces(number, &[face.domain], &Unit::OWN, &mut made);
+    let mut open: VecDeque<Open> = made.into_iter().map(|piece| Open { piece, halved: [0; 2] }).collect();
+    let mut torn = Vec::new();
+    while let Some(Open { piece, halved }) = open.pop_front() {
+        if bounds.are_missed_by(&piece.hull) {
+            continue;
+        }
+        let is_full = out.len() - first + open.len() > MOST;
+        let finest = if piece.is_bounded() { FINEST } else { UNBOUNDED };
+        let may = [0, 1].map(|k| halved[k] < finest && piece.has_halves(k));
+        if !piece.is_bounded() {
+            if is_full || may != [true; 2] {
+                if bounds.are_none() {
+                    return Err(Refused::Unbounded(piece.middle));
+                }
+                continue;
+            }
+        } else if piece.bend() <= FLAT || may == [false; 2] || is_full {
+            if piece.jumps {
+                torn.push(out.len());
+            }
+            out.push(piece);
+            continue;
+        }
+        let mut boxes = piece.halves(0).to_vec();
+        boxes.extend(piece.halves(1));
+        let mut kids = Vec::with_capacity(4);
+        face.pieces(number, &boxes, &Unit::OWN, &mut kids);
+        let along = |k: usize| kids.iter().filter(move |kid| kid.width[k] < piece.width[k]);
+        let costs: [f64; 2] = [0, 1].map(|k| along(k).map(|kid| cost(kid, bounds)).sum());
+        let change = piece.change();
+        let second = if costs[0] == costs[1] { change[1] > change[0] } else { costs[1] < costs[0] };
+        let k = if may == [true; 2] { usize::from(second) } else { usize::from(may[1]) };
+        let mut halved = halved;
+        halved[k] += 1;
+        open.extend(along(k).map(|kid| Open { piece: *kid, halved }));
+    }
+    // Where the formula jumps there would be a gap: such a map is no sheet.
+    let whole = size(&out[first..]);
+    for at in torn {
+        let piece = &out[at];
+        if size(&out[at..=at]) > TORN * whole {
+            return Err(Refused::Jump(piece.middle));
+        }
+    }
+    Ok(())
+}
+
+/// How far a piece is from being flat; parts without bounds first.
+fn cost(piece: &Piece, bounds: &Bounds) -> f64 {
+    if bounds.are_missed_by(&piece.hull) {
+        0.0
+    } else if piece.is_bounded() {
+        piece.bend().min(1e6)
+    } else {
+        1e12
+    }
+}
+
+/// The longest edge of a box around pieces.
+fn size(pieces: &[Piece]) -> f64 {
+    (0..3).fold(0.0, |most: f64, c| {
+        let low = pieces.iter().fold(f64::INFINITY, |low: f64, piece| low.min(piece.hull[c].lo));
+        let high = pieces.iter().fold(f64::NEG_INFINITY, |high: f64, piece| high.max(piece.hull[c].hi));
+        most.max(high - low)
+    })
+}

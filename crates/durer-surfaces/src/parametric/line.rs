@@ -1,0 +1,272 @@
+//! A ray and a piece: the ray is sheared onto an axis as for patches, so that a crossing is a zero of
+//! two functions of two unknowns.
+//!
+//! ```text
+//!   F = (X - k_x Z,  Y - k_y Z),   (X, Y, Z) = S(u, v) - o,   k_x = d_x / d_z,  |d_z| the largest
+//! ```
+//!
+//! What the ray is not exactly known by, and every rounding, is charged to `F`, so that a piece is
+//! left out only if no ray within these errors meets it, and neighbours need not agree on any
+//! rounding.
+
+use super::Bounds;
+use super::piece::{Domain, Face, Piece, Unit, around, lane_of};
+use crate::patch::line::Line;
+use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, inverse, zero_in};
+use crate::tape::lanes;
+use durer_math::eft::scale2;
+use durer_math::{Interval, U};
+
+/// Steps of Newton's method: from a start in its basin, six give all digits.
+const NEWTON: usize = 8;
+/// A step below this part of a piece's width is followed by one below the rounding errors.
+const NEAR: f64 = durer_math::scale::pow2(-24);
+/// Half-widths of the boxes, in widths of the piece, in which a zero is proven: the least one that
+/// serves gives the sharpest bracket.
+const RADII: [f64; 8] = [0.0, pow2(-51), pow2(-48), pow2(-45), pow2(-41), pow2(-36), pow2(-30), pow2(-22)];
+
+const fn pow2(n: i32) -> f64 {
+    durer_math::scale::pow2(n)
+}
+
+/// A line as a map sees it.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) line: &'a Line,
+    pub(super) face: &'a Face,
+    pub(super) unit: &'a Unit,
+    pub(super) cut: &'a Bounds,
+}
+
+/// A crossing of a line and a map, or what may be one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) face: u32,
+    /// The parameters, and how far off they may be.
+    pub(super) uv: [f64; 2],
+    pub(super) radius: [f64; 2],
+    /// It is the only crossing in this box; empty if nothing is proven.
+    pub(super) only: Domain,
+    pub(super) s: f64,
+    pub(super) s_err: f64,
+    /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
+    pub(super) sign: i8,
+    /// Where nothing is proven: that sign at some points round about, 0 if they differ.
+    pub(super) turn: i8,
+}
+
+/// No parameters.
+const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+
+impl View<'_> {
+    /// Both functions at a point, and bounds on the errors of their values.
+    #[inline(always)]
+    fn values(&self, p: &[f64; 3], err: &[f64; 3]) -> ([f64; 2], [f64; 2]) {
+        let Line { axes, o, o_err, slope, slope_err, .. } = self.line;
+        let of = |k: usize| p[axes[k]] - o[k];
+        let off = |k: usize| err[axes[k]] + o_err[k];
+        let z = of(2);
+        let (mut f, mut e) = ([0.0; 2], [0.0; 2]);
+        for i in 0..2 {
+            let x = of(i);
+            f[i] = (-slope[i]).mul_add(z, x);
+            let k = slope[i].abs();
+            let given = k.mul_add(off(2), off(i)) + slope_err[i] * (z.abs() + off(2));
+            e[i] = (given + 2.0 * U * k.mul_add(z.abs(), x.abs())) * ROUNDED;
+        }
+        (f, e)
+    }
+
+    /// The slopes of both functions, and bounds on their errors, each for both parameters.
+    #[inline(always)]
+    fn slopes(&self, j: &[[f64; 2]; 3], err: &[[f64; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
+        let Line { axes, slope, slope_err, .. } = self.line;
+        let (mut out, mut e) = ([[0.0; 2]; 2], [0.0_f64; 2]);
+        for i in 0..2 {
+            let size = slope[i].abs();
+            for k in 0..2 {
+                let (x, z) = (j[axes[i]][k], j[axes[2]][k]);
+                out[i][k] = (-slope[i]).mul_add(z, x);
+                let (ex, ez) = (err[axes[i]][k], err[axes[2]][k]);
+                let given = size.mul_add(ez, ex) + slope_err[i] * (z.abs() + ez);
+                let off = (given + 2.0 * U * size.mul_add(z.abs(), x.abs())) * ROUNDED;
+                // A slope of which nothing is known is off by infinity, not NaN.
+                e[i] = e[i].max(if off.is_nan() { f64::INFINITY } else { off });
+            }
+        }
+        (out, e)
+    }
+
+    /// What a box of points has of both functions: whether both may vanish.
+    #[inline(always)]
+    fn may_vanish(&self, hull: &[Interval; 3]) -> bool {
+        if hull.iter().any(|x| !(x.lo.is_finite() && x.hi.is_finite())) {
+            return true;
+        }
+        let p = hull.map(|x| 0.5 * x.lo + 0.5 * x.hi);
+        let half = [0, 1, 2].map(|c: usize| (hull[c].hi - p[c]).max(p[c] - hull[c].lo) * ROUNDED);
+        let (f, e) = self.values(&p, &half);
+        (0..2).all(|i| f[i].abs() <= e[i])
+    }
+
+    /// A piece as Krawczyk's test takes it.
+    #[inline(always)]
+    pub(super) fn local(&self, piece: &Piece) -> (Local, Limits) {
+        let (f, e) = self.values(&piece.p, &piece.p_err);
+        let (j, e_j) = self.slopes(&piece.slope, &piece.slope_err);
+        (Local { f, j }, Limits { e, e_j, h: [[0.0; 3]; 2] })
+    }
+
+    /// What a piece holds.
+    #[inline(always)]
+    pub(super) fn content(&self, piece: &Piece) -> Content {
+        if !self.may_vanish(&piece.hull) {
+            return Content::Nothing;
+        }
+        let (local, limits) = self.local(piece);
+        // Slopes are bounded on the wide box, so what is said of them holds there.
+        limits.content(&local, piece.half(), 1.0)
+    }
+
+    /// Looks for the one crossing that a piece may hold, near `start`, which counts from its middle
+    /// in widths. Whether that is decided.
+    pub(super) fn meet_at_most_one(&self, piece: &Piece, start: [f64; 2], out: &mut Vec<Found>) -> bool {
+        let mut x = [0, 1].map(|k| start[k].mul_add(piece.width[k], piece.middle[k]));
+        let mut tries = 0;
+        for _ in 0..NEWTON {
+            for k in 0..2 {
+                x[k] = x[k].max(piece.wide[k][0]).min(piece.wide[k][1]);
+            }
+            let Some(step) = self.step(piece, x) else { return false };
+            x = [0, 1].map(|k| x[k] - step[k]);
+            if (0..2).all(|k| step[k].abs() <= NEAR * piece.width[k]) {
+                if let Some(found) = self.proven(piece, x) {
+                    // Another one may still be in the box if this one is outside.
+                    let within = |k: usize| {
+                        let ([from, to], [at, off]) = (piece.wide[k], [found.0.uv[k], found.0.radius[k]]);
+                        from <= at - off && at + off <= to
+                    };
+                    if !(within(0) && within(1)) {
+                        return false;
+                    }
+                    if self.belongs(piece, &found) && !self.is_cut_off(&found.1) {
+                        out.push(found.0);
+                    }
+                    return true;
+                }
+                tries += 1;
+                if tries == 2 {
+                    return false;
+                }
+            }
+        }
+        false
+    }
+
+    /// A step of Newton's method.
+    #[inline(always)]
+    fn step(&self, piece: &Piece, x: [f64; 2]) -> Option<[f64; 2]> {
+        let jets = self.face.tape.jet(x);
+        let p = [0, 1, 2].map(|c: usize| scale2(jets[c].v - self.unit.centre[c], -self.unit.scale));
+        let j = [0, 1, 2]
+            .map(|c: usize| [0, 1].map(|k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * piece.width[k]));
+        let f = self.values(&p, &[0.0; 3]).0;
+        let y = inverse(&self.slopes(&j, &[[0.0; 2]; 3]).0)?;
+        let step = [0, 1].map(|i: usize| y[i][0].mul_add(f[0], y[i][1] * f[1]) * piece.width[i]);
+        step.iter().all(|x| x.is_finite()).then_some(step)
+    }
+
+    /// A crossing near `x`, with proof, and a box in space that holds it.
+    fn proven(&self, piece: &Piece, x: [f64; 2]) -> Option<(Found, [Interval; 3])> {
+        let boxes = RADII.map(|r| around(x, piece.width, r));
+        let jets = self.face.tape.jets(&lanes(&boxes));
+        let (mut p, mut p_err) = ([0.0; 3], [0.0; 3]);
+        for c in 0..3 {
+            lane_of(&jets[c].v, 0)?;
+            (p[c], p_err[c]) = self.unit.place(jets[c].v.lane(0), c);
+        }
+        let (f, e) = self.values(&p, &p_err);
+        for (lane, &r) in RADII.iter().enumerate().skip(1) {
+            let (mut j, mut j_err) = ([[0.0; 2]; 3], [[0.0; 2]; 3]);
+            for c in 0..3 {
+                for k in 0..2 {
+                    lane_of(&jets[c].v, lane)?;
+                    let (slope, err) = lane_of(&jets[c].d.d[k], lane)?;
+                    let by = |x: f64| scale2(x, -self.unit.scale) * piece.width[k];
+                    j[c][k] = by(slope);
+                    j_err[c][k] = by(err) * ROUNDED + U * by(slope).abs() + f64::MIN_POSITIVE;
+                }
+            }
+            let (rows, e_j) = self.slopes(&j, &j_err);
+            let Some(zero) = zero_in(&Local { f, j: rows }, (&e, &e_j), r) else { continue };
+            // Where the crossing is in space.
+            let mut hull = [Interval::ENTIRE; 3];
+            for c in 0..3 {
+                let (mut at, mut err) = (p[c], p_err[c]);
+                for k in 0..2 {
+                    at = j[c][k].mul_add(zero.x[k], at);
+                    err += j[c][k].abs() * zero.radius[k] + j_err[c][k] * (zero.x[k].abs() + zero.radius[k]);
+                    err += U * (at.abs() + (j[c][k] * zero.x[k]).abs());
+                }
+                hull[c] = Interval::around(at, err * ROUNDED);
+            }
+            let z_axis = self.line.axes[2];
+            let (z, z_err) = self.depth(&hull[z_axis]);
+            let (s, s_err) = self.line.along(z, z_err);
+            let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
+            let uv = [0, 1].map(|k: usize| zero.x[k].mul_add(piece.width[k], x[k]));
+            let radius = [0, 1].map(|k: usize| (zero.radius[k] * piece.width[k] + U * uv[k].abs()) * ROUNDED);
+            let face = piece.face;
+            return Some((Found { face, uv, radius, only: piece.wide, s, s_err, sign, turn: sign }, hull));
+        }
+        None
+    }
+
+    /// The third coordinate of a box in space, counted from the line's origin, and its error.
+    fn depth(&self, x: &Interval) -> (f64, f64) {
+        let middle = 0.5 * x.lo + 0.5 * x.hi;
+        let half = (x.hi - middle).max(middle - x.lo);
+        let z = middle - self.line.o[2];
+        (z, (half + self.line.o_err[2] + U * z.abs()) * ROUNDED)
+    }
+
+    /// Whether a crossing may be in a piece's own box, to which a little beyond the domain belongs.
+    fn belongs(&self, piece: &Piece, (found, _): &(Found, [Interval; 3])) -> bool {
+        (0..2).all(|k| {
+            let ([from, to], [first, last]) = (piece.own[k], self.face.domain[k]);
+            let room = |is_end: bool| found.radius[k] + if is_end { self.face.slack[k] } else { 0.0 };
+            found.uv[k] >= from - room(from == first) && found.uv[k] <= to + room(to == last)
+        })
+    }
+
+    /// Whether a box in space is certainly cut off.
+    pub(super) fn is_cut_off(&self, hull: &[Interval; 3]) -> bool {
+        self.cut.are_missed_by(hull)
+    }
+
+    /// A piece in which crossings cannot be told from misses.
+    pub(super) fn unresolved(&self, piece: &Piece) -> Found {
+        let (z, z_err) = self.depth(&piece.hull[self.line.axes[2]]);
+        let (s, s_err) = self.line.along(z, z_err);
+        let uv = piece.middle;
+        let radius = [0, 1].map(|k: usize| {
+            (piece.own[k][1] - uv[k]).max(uv[k] - piece.own[k][0]) * ROUNDED + U * uv[k].abs()
+        });
+        Found { face: piece.face, uv, radius, only: NOWHERE, s, s_err, sign: 0, turn: self.turn(piece) }
+    }
+
+    /// The sign of `S_u x S_v . d` in a piece, if it is the same at four points of it.
+    fn turn(&self, piece: &Piece) -> i8 {
+        let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at: [f64; 2]| {
+            let x = [0, 1].map(|k: usize| at[k].mul_add(piece.width[k], piece.own[k][0]));
+            let jets = self.face.tape.jet(x);
+            let j = [0, 1, 2].map(|c: usize| {
+                [0, 1].map(|k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * piece.width[k])
+            });
+            let [a, b] = self.slopes(&j, &[[0.0; 2]; 3]).0;
+            let det = a[0].mul_add(b[1], -(a[1] * b[0])) * self.line.d_z;
+            i8::from(det > 0.0) - i8::from(det < 0.0)
+        });
+        if signs.iter().all(|s| *s == signs[0]) { signs[0] } else { 0 }
+    }
+}

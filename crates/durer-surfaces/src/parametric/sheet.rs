@@ -1,0 +1,168 @@
+//! Maps of rectangles as one surface: their pieces in a tree, and all crossings of a ray, each once.
+
+use super::build::{self, Refused};
+use super::crossings::{distinct, root};
+use super::line::{Found, View};
+use super::piece::{Face, Piece, Unit};
+use super::{Bounds, subdivide};
+use crate::blob::{Along, Inner, Tree};
+use crate::mesh::Sorted;
+use crate::patch::line::Line;
+use crate::roots::two_unknowns::Content;
+use crate::{CentredRay, LocalRay, Sink};
+use core::cell::Cell as Slot;
+use durer_math::eft::{exponent, scale2};
+use durer_math::{Aabb, Point3, U, Vec3};
+
+/// Pieces farther than this from the ray's range, in units, are not looked at: far more than any
+/// bracket of a proven crossing is wide.
+const ROOM: f64 = 1.0 / 1024.0;
+
+/// Maps in units about a common centre.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    pub(super) faces: Box<[Face]>,
+    pub(super) bounds: Aabb,
+    pub(super) centre: Point3,
+    pub(super) unit: Unit,
+    /// The radius of a ball about the centre that holds everything.
+    pub(super) reach: f64,
+    /// What cuts it, in units.
+    pub(super) cut: Bounds,
+    gap: f64,
+    /// In the order of the tree.
+    pieces: Box<[Piece]>,
+    tree: Tree,
+}
+
+/// Lists of one ray, kept by the thread so that rays do not allocate.
+#[derive(Default)]
+struct Lists {
+    nodes: Vec<u32>,
+    found: Vec<Found>,
+}
+
+thread_local! {
+    static LISTS: Slot<Lists> = Slot::default();
+}
+
+impl Sheet {
+    /// The sheet of these maps, as far as it is within `bounds`; `None` if nothing is.
+    ///
+    /// Edges of maps that are to be one are within `gap` of each other, in units. An error says which
+    /// map is refused.
+    pub(super) fn new(faces: Vec<Face>, bounds: &Bounds, gap: f64) -> Result<Option<Self>, (u32, Refused)> {
+        let mut all = Vec::new();
+        for (number, face) in (0_u32..).zip(&faces) {
+            build::pieces(face, number, bounds, &mut all).map_err(|refused| (number, refused))?;
+        }
+        let box_of = |piece: &Piece| {
+            let end = |of: fn(&durer_math::Interval) -> f64| {
+                let [x, y, z] = [0, 1, 2].map(|c| of(&piece.hull[c]));
+                Point3::new(x, y, z)
+            };
+            Aabb::new(end(|x| x.lo), end(|x| x.hi))
+        };
+        let hull = all.iter().fold(Aabb::EMPTY, |hull, piece| hull.union(box_of(piece)));
+        let bounds_box = hull.intersection(bounds.hull());
+        if bounds_box.is_empty() {
+            return Ok(None);
+        }
+        let centre = bounds_box.centre();
+        let reach = bounds_box.reach_from(centre);
+        if !(reach > 0.0 && reach.is_finite()) {
+            return Ok(None);
+        }
+        let unit = Unit { centre: [centre.x, centre.y, centre.z], scale: exponent(reach) + 1 };
+        for piece in &mut all {
+            *piece = piece.in_units(&unit);
+        }
+        let cut = bounds.in_units(&unit);
+        let boxes: Vec<Aabb> = all.iter().map(box_of).map(|held| held.intersection(cut.hull())).collect();
+        let (tree, order) = Tree::new(&boxes);
+        let pieces = order.iter().map(|&i| all[i as usize]).collect();
+        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds_box.magnitude());
+        let bounds = bounds_box.expanded(room);
+        Ok(Some(Self { faces: faces.into(), bounds, centre, unit, reach, cut, gap, pieces, tree }))
+    }
+
+    /// A length in units.
+    pub(super) fn back(&self, x: f64) -> f64 {
+        scale2(x, self.unit.scale)
+    }
+
+    /// A length in units, of one that is not.
+    pub(super) fn in_units(&self, x: f64) -> f64 {
+        scale2(x, -self.unit.scale)
+    }
+
+    /// Passes all crossings with the maps that `wanted` names to `sink`, ascending.
+    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink, wanted: impl Fn(u32) -> bool) {
+        let range = (ray.t_min, ray.t_max.min(sink.limit()));
+        self.with_found(ray, range, |at, found| {
+            let mut roots = Sorted::new();
+            for crossing in found.iter().filter(|found| wanted(found.face)) {
+                if let Some(root) = root(at, crossing) {
+                    roots.push(root);
+                }
+            }
+            roots.pour(sink);
+        });
+    }
+
+    /// Calls `f` with all crossings of a ray's line, if there are any.
+    pub(super) fn with_all(&self, ray: &LocalRay<'_>, f: impl FnOnce(&CentredRay<'_>, &[Found])) {
+        self.with_found(ray, (f64::NEG_INFINITY, f64::INFINITY), f);
+    }
+
+    fn with_found(&self, ray: &LocalRay<'_>, range: (f64, f64), f: impl FnOnce(&CentredRay<'_>, &[Found])) {
+        let at = ray.recentre(self.centre, self.unit.scale).sharp(1.0);
+        let mut lists = LISTS.take();
+        self.meet(&at, &mut lists, range);
+        if !lists.found.is_empty() {
+            f(&at, distinct(&mut lists.found, &self.faces, self.gap));
+        }
+        LISTS.set(lists);
+    }
+
+    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, range: (f64, f64)) {
+        let along = Along::new(at);
+        let (begin, end) = at.window(range);
+        let (begin, end) = (begin - ROOM, end + ROOM);
+        let line = Line::new(at);
+        let Lists { nodes, found } = lists;
+        nodes.clear();
+        found.clear();
+        nodes.push(0);
+        while let Some(node) = nodes.pop() {
+            let Some((near, far)) = self.tree.entry(node, &along) else { continue };
+            if far < begin || near > end {
+                continue;
+            }
+            match self.tree.inner(node) {
+                Inner::Nodes(a, b) => {
+                    nodes.push(a);
+                    nodes.push(b);
+                }
+                Inner::Leaf(from, to) => {
+                    for piece in &self.pieces[from..to] {
+                        self.meet_piece(&line, piece, found);
+                    }
+                }
+            }
+        }
+    }
+
+    fn meet_piece(&self, line: &Line, piece: &Piece, found: &mut Vec<Found>) {
+        let view = View { line, face: &self.faces[piece.face as usize], unit: &self.unit, cut: &self.cut };
+        match view.content(piece) {
+            Content::Nothing => {}
+            Content::AtMostOne(start) => {
+                if !view.meet_at_most_one(piece, start, found) {
+                    subdivide::meet(&view, piece, found);
+                }
+            }
+            Content::Unknown => subdivide::meet(&view, piece, found),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! A piece that a ray meets nearly at a tangent, or whose slopes vanish at a pole: cut into eight
+//! again and again until every part is empty, holds one proven crossing, or is as small as the
+//! errors.
+
+use super::line::{Found, View};
+use super::piece::{Domain, Piece, halves};
+use crate::roots::two_unknowns::{Content, ROUNDED};
+use durer_math::U;
+use durer_math::scale::pow2;
+
+/// The most times that one ray cuts up parts of a piece; what is then left stays unresolved. A
+/// tangent needs some dozens.
+const MOST_CUTS: usize = 1024;
+/// Values of fewer errors than this all over a part cannot be told from zero.
+const NOISE: f64 = 8.0;
+/// The least width of a part, as a part of the domain's.
+const LEAST: f64 = pow2(-48);
+
+/// The crossings of a line and a piece, and the parts of it in which none can be told from a miss.
+pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
+    let mut open = vec![*piece];
+    let (mut boxes, mut parts) = (Vec::<Domain>::with_capacity(8), Vec::with_capacity(8));
+    let mut cuts = 0;
+    while let Some(piece) = open.pop() {
+        let may = [0, 1].map(|k| {
+            let [from, to] = view.face.domain[k];
+            piece.width[k] > LEAST * (to - from)
+        });
+        if may == [false; 2] || cuts == MOST_CUTS {
+            // Without bounds there is no place for a crossing.
+            if piece.is_bounded() {
+                out.push(view.unresolved(&piece));
+            }
+            continue;
+        }
+        cuts += 1;
+        boxes.clear();
+        boxes.push(piece.own);
+        let mut change = piece.change();
+        if change.iter().any(|c| !c.is_finite()) {
+            change = piece.width;
+        }
+        for _ in 0..3 {
+            let k = usize::from(change[1] > change[0]);
+            let k = if may[k] { k } else { 1 - k };
+            change[k] *= 0.5;
+            for i in 0..boxes.len() {
+                let [low, high] = halves(&boxes[i], k);
+                boxes[i] = low;
+                boxes.push(high);
+            }
+        }
+        boxes.retain(|own| own.iter().all(|[from, to]| from < to));
+        parts.clear();
+        view.face.pieces(piece.face, &boxes, view.unit, &mut parts);
+        for part in &parts {
+            if view.is_cut_off(&part.hull) {
+                continue;
+            }
+            match view.content(part) {
+                Content::Nothing => continue,
+                Content::AtMostOne(start) if view.meet_at_most_one(part, start, out) => continue,
+                _ => {}
+            }
+            match along_slowest(view, part) {
+                Slow::Clear => {}
+                Slow::Noise => out.push(view.unresolved(part)),
+                Slow::Unknown => open.push(*part),
+            }
+        }
+    }
+}
+
+/// What the slowest combination of both functions says of a part.
+enum Slow {
+    /// It vanishes nowhere.
+    Clear,
+    /// It is as good as zero everywhere.
+    Noise,
+    Unknown,
+}
+
+fn along_slowest(view: &View<'_>, part: &Piece) -> Slow {
+    let (local, limits) = view.local(part);
+    let slow = slowest(&local.j);
+    let sum = |x: [f64; 2]| slow[0].abs() * x[0].abs() + slow[1].abs() * x[1].abs();
+    let value = slow[0].mul_add(local.f[0], slow[1] * local.f[1]).abs();
+    let change: f64 = (0..2).map(|k| slow[0].mul_add(local.j[0][k], slow[1] * local.j[1][k]).abs()).sum();
+    // The combination itself rounds.
+    let rounding =
+        4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
+    let reach = part.half() * (change + 2.0 * sum(limits.e_j)) + rounding;
+    let noise = sum(limits.e);
+    if value > (reach + noise) * ROUNDED {
+        Slow::Clear
+    } else if (value + reach) * ROUNDED <= NOISE * (noise + rounding) {
+        Slow::Noise
+    } else {
+        Slow::Unknown
+    }
+}
+
+/// The combination of both functions that changes most slowly: the left singular vector of the
+/// slopes.
+fn slowest(j: &[[f64; 2]; 2]) -> [f64; 2] {
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
+    let (p, q, r) = (dot(j[0], j[0]), dot(j[0], j[1]), dot(j[1], j[1]));
+    // The direction of the larger eigenvalue of J J'.
+    let half = 0.5 * (p - r);
+    let root = half.mul_add(half, q * q).sqrt();
+    let [a, b] = if half >= 0.0 { [half + root, q] } else { [q, root - half] };
+    let length = a.mul_add(a, b * b).sqrt();
+    if length > 0.0 && length.is_finite() { [-b / length, a / length] } else { [0.0, 1.0] }
+}
