@@ -453,6 +453,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(patch.points.len() * 32);
             scene::Shape::Patch(Arc::new((**patch).clone()))
         }
+        Shape::TriangularPatch(patch) => {
+            limits::charge_for_good(patch.points.len() * 32);
+            scene::Shape::TriangularPatch(Arc::new((**patch).clone()))
+        }
         Shape::Nurbs(data) => {
             limits::charge_for_good(data.points.len() * 32);
             scene::Shape::Nurbs(Arc::new((**data).clone()))

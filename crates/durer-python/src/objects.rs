@@ -6,7 +6,7 @@ use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
     Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
-    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -191,6 +191,11 @@ fn lathe(points: Vec<[f64; 2]>, spline: &str) -> PyResult<Object> {
 #[pyfunction]
 fn bezier_patch(points: Vec<[f64; 4]>, size: [usize; 2], uv: [[f64; 2]; 4]) -> PyResult<Object> {
     checked(Shape::Patch(Arc::new(Patch { size, points, uv })))
+}
+
+#[pyfunction]
+fn triangular_patch(points: Vec<[f64; 4]>, side: usize, uv: [[f64; 2]; 3]) -> PyResult<Object> {
+    checked(Shape::TriangularPatch(Arc::new(TriangularPatch { side, points, uv })))
 }
 
 #[pyfunction]
@@ -477,6 +482,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lathe, module)?)?;
     module.add_function(wrap_pyfunction!(sweep, module)?)?;
     module.add_function(wrap_pyfunction!(bezier_patch, module)?)?;
+    module.add_function(wrap_pyfunction!(triangular_patch, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;

@@ -53,7 +53,7 @@ pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, R
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Patch, Prism, QuadricKind,
-    Shape, Spline, StraightSweep, Sweep,
+    Shape, Spline, StraightSweep, Sweep, TriangularPatch,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;

@@ -223,6 +223,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
+        Shape::TriangularPatch(_) => "a triangular patch",
         Shape::Nurbs(_) => "a nurbs surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",

@@ -106,6 +106,7 @@ pub(crate) enum Shape {
     /// Radii and heights.
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Patch(Rc<durer_scene::Patch>),
+    TriangularPatch(Rc<durer_scene::TriangularPatch>),
     Nurbs(Rc<durer_scene::NurbsData>),
     Ovus {
         bottom: f64,

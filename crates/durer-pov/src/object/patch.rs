@@ -7,7 +7,7 @@ use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{NurbsData, Patch};
+use durer_scene::{NurbsData, Patch, TriangularPatch};
 
 /// How the points of a `patch` make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,8 +127,29 @@ impl Parser<'_> {
         self.patch([2, 2], vec![a, b, d, c], uv, place)
     }
 
-    /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`.
+    /// `triangular N, points [uv_vectors three of them]`: N points in the first row, each row one
+    /// shorter.
+    fn triangular_patch(&mut self, place: Place) -> Result<Shape> {
+        self.skip_comma()?;
+        let side = self.whole_from("the points along a side of a triangular patch", 2, 9)?;
+        let mut points = Vec::new();
+        for row in 0..side {
+            points.extend(self.weighted_net([side - row, 1], row)?);
+        }
+        let mut uv = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        self.uv_vectors(&mut uv)?;
+        if points.iter().all(|p| p[..3] == points[0][..3]) {
+            return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
+        }
+        Ok(Shape::TriangularPatch(Rc::new(TriangularPatch { side, points, uv })))
+    }
+
+    /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`, or
+    /// `triangular N, points`.
     pub(super) fn spline_patch(&mut self, place: Place) -> Result<Shape> {
+        if self.small_word("triangular")? {
+            return self.triangular_patch(place);
+        }
         let (basis, name, least) = if self.take_word(Keyword::LinearSpline)? {
             (Basis::Linear, "linear_spline", 2)
         } else if self.take_word(Keyword::BSpline)? {
@@ -151,7 +172,7 @@ impl Parser<'_> {
         for n in &mut size {
             *n = self.whole_from(&format!("the points along a parameter of a {name} patch"), least, most)?;
         }
-        let points = self.weighted_net(size)?;
+        let points = self.weighted_net(size, 0)?;
         let uv = if basis == Basis::Bezier { self.uv_corners()? } else { [[0.0; 2]; 4] };
         match basis {
             Basis::Bezier => self.patch(size, points, uv, place),
@@ -191,7 +212,7 @@ impl Parser<'_> {
                 for n in &mut data.size {
                     *n = self.whole_from("the points along a parameter of a nurbs", 2, MOST_POINTS)?;
                 }
-                data.points = self.weighted_net(data.size)?;
+                data.points = self.weighted_net(data.size, 0)?;
                 has_points = true;
             } else if self.small_word("u_knots")? {
                 data.knots[0] = self.knots()?;
@@ -261,8 +282,8 @@ impl Parser<'_> {
         Ok(n as usize)
     }
 
-    /// Points of a net: `<x, y, z>`, or `<x, y, z, w>` with a weight.
-    fn weighted_net(&mut self, [nu, nv]: [usize; 2]) -> Result<Vec<[f64; 4]>> {
+    /// Points of a net, `<x, y, z>`, or `<x, y, z, w>` with a weight; and how many rows were before.
+    fn weighted_net(&mut self, [nu, nv]: [usize; 2], rows: usize) -> Result<Vec<[f64; 4]>> {
         let mut points = Vec::new();
         for n in 0..nu * nv {
             self.peek()?;
@@ -280,7 +301,7 @@ impl Parser<'_> {
                 _ => 1.0,
             };
             if !(weight > 0.0 && weight.is_finite()) {
-                let (row, column) = (n / nu + 1, n % nu + 1);
+                let (row, column) = (rows + n / nu + 1, n % nu + 1);
                 let text =
                     format!("the weight of point {column} of row {row} must be positive, not {weight}");
                 return Err(Error::invalid(at, text));
@@ -306,13 +327,19 @@ impl Parser<'_> {
     /// `uv_vectors` at the four corners, if they come next.
     fn uv_corners(&mut self) -> Result<[[f64; 2]; 4]> {
         let mut uv = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        self.uv_vectors(&mut uv)?;
+        Ok(uv)
+    }
+
+    /// `uv_vectors`, as many as there are, if they come next.
+    fn uv_vectors(&mut self, uv: &mut [[f64; 2]]) -> Result<()> {
         if self.take_word(Keyword::UvVectors)? {
-            for corner in &mut uv {
+            for corner in uv {
                 *corner = self.vector2()?;
                 self.skip_comma()?;
             }
         }
-        Ok(uv)
+        Ok(())
     }
 
     /// The shape of a net.

@@ -572,6 +572,38 @@ class BezierPatch(Object):
 
 
 @final
+class TriangularPatch(Object):
+    """The Bezier patch over a triangle, of degree 1 to 8: rows of control points, each one point shorter than the one before.
+
+    `rows` is a list of rows of points (x, y, z), or (x, y, z, w) with weights: the first row has one point more than the
+    degree, the last has one point; u runs along a row. `uv` has the texture coordinates at (u, v) = (0, 0), (1, 0) and
+    (0, 1). An open surface.
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self, rows: Sequence[npt.ArrayLike], uv: npt.ArrayLike = ((0, 0), (1, 0), (0, 1))
+    ) -> None:
+        triangle = []
+        for number, row in enumerate(rows):
+            points = real_array(row, "rows")
+            if points.ndim != 2 or points.shape[1] not in (3, 4) or len(points) != len(rows) - number:
+                raise ValueError(
+                    f"rows: row {number} needs {len(rows) - number} points of 3 or 4 numbers, got shape {points.shape}"
+                )
+            if points.shape[1] == 3:
+                points = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+            triangle.append(tuple(tuple(point) for point in points.tolist()))
+        corners = _rows(uv, 2, "uv")
+        if len(corners) != 3:
+            raise ValueError(f"uv: 3 rows are needed, got {len(corners)}")
+        points_in_order = tuple(point for row in triangle for point in row)
+        native = _native.triangular_patch(points_in_order, len(triangle), corners)
+        self._set(native, (tuple(triangle), corners))
+
+
+@final
 class Nurbs(Object):
     """A surface of non-uniform rational B-splines: a net of points (rows, columns, 3), or 4 with weights, and degrees 1 to 9.
 

@@ -7,7 +7,8 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
     Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, TriangularPatch,
+    superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -128,6 +129,10 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             add_closed(&mut target, Lathe::new(*spline, points).map_err(shape_error)?, map);
         }
         Shape::Patch(it) => match BezierPatch::rational(it.size, &it.points) {
+            Err(nothing @ PatchError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?.with_uv(it.uv), map),
+        },
+        Shape::TriangularPatch(it) => match TriangularPatch::rational(it.side, &it.points) {
             Err(nothing @ PatchError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?.with_uv(it.uv), map),
         },
@@ -546,6 +551,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
+        Shape::TriangularPatch(_) => "a triangular patch",
         Shape::Nurbs(_) => "a nurbs surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",

@@ -90,6 +90,14 @@ pub(super) struct Found {
     pub(super) turn: i8,
 }
 
+impl Found {
+    /// Whether it may be in the triangle `u + v <= 1`.
+    #[inline(always)]
+    fn reaches_triangle(&self) -> bool {
+        self.uv[0] + self.uv[1] <= 1.0 + (self.radius[0] + self.radius[1] + U)
+    }
+}
+
 impl<'a> View<'a> {
     /// The bounds of errors: with `X = x - o_x W`, `Z = z - o_z W` and `f = X - k Z`,
     ///
@@ -167,7 +175,7 @@ impl<'a> View<'a> {
             Content::AtMostOne([du, dv]) => match self.zero([0.5 + du, 0.5 + dv], &self.limits, &MARGINS) {
                 Some(zero) => {
                     if touches(&zero, [0.0; 2], [1.0; 2]) {
-                        out.push(self.found(&zero));
+                        out.extend(self.found(&zero));
                     }
                 }
                 None => subdivide::meet(self, out),
@@ -204,9 +212,9 @@ impl<'a> View<'a> {
         (s, err)
     }
 
-    /// A proven zero as a crossing.
+    /// A proven zero as a crossing, if it may be on the patch.
     #[inline(always)]
-    pub(super) fn found(&self, zero: &Zero) -> Found {
+    pub(super) fn found(&self, zero: &Zero) -> Option<Found> {
         let (cell, z_axis) = (self.cell, self.line.axes[2]);
         let [p, pu, pv] = cell.at(self.rational, zero.x);
         let w = p[3];
@@ -231,7 +239,7 @@ impl<'a> View<'a> {
             + 2.0 * U * (z.abs() + self.o[2].abs() + (p[z_axis] / w).abs());
         let (s, s_err) = self.along(z, z_err * ROUNDED);
         let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
-        Found {
+        let found = Found {
             face: cell.face,
             uv: [self.in_patch(0, zero.x[0]), self.in_patch(1, zero.x[1])],
             radius: [0, 1].map(|k| (zero.radius[k] * cell.width[k] + U) * ROUNDED),
@@ -240,7 +248,8 @@ impl<'a> View<'a> {
             s_err,
             sign,
             turn: sign,
-        }
+        };
+        (!cell.is_half || found.reaches_triangle()).then_some(found)
     }
 
     /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.

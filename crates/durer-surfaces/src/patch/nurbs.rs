@@ -12,14 +12,12 @@
 //! surfaces", *IEEE Transactions on Visualization and Computer Graphics* 4 (1998) 202-214; L. Piegl,
 //! W. Tiller, *The NURBS Book*, 2nd ed. 1997.
 
-use super::net::{Homogeneous, Net, between};
+use super::net::{FaceNet, Homogeneous, Net, between};
 use super::shell::Shell;
+use super::surface::{Patches, surface_of_patches};
 use super::{LARGEST, WEIGHTS};
-use crate::compose::clip::Algebraic;
-use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
-use durer_math::{Aabb, Dd, Dyadic, Isa};
+use crate::{Need, Root, SurfacePoint};
+use durer_math::Dd;
 use std::sync::Arc;
 
 /// The highest degree.
@@ -295,7 +293,7 @@ impl Nurbs {
             for a in 0..ends[0].len() - 1 {
                 let net = (0..=pv).flat_map(|j| (0..=pu).map(move |i| (a * pu + i, b * pv + j)));
                 let points = net.map(|(i, j)| columns[i][j]).collect();
-                nets.push(Net { size: [pu + 1, pv + 1], points });
+                nets.push(FaceNet::Square(Net { size: [pu + 1, pv + 1], points }));
                 let part = |k: usize, n: usize| {
                     let [from, all] = whole[k];
                     [(ends[k][n] - from) / all, (ends[k][n + 1] - ends[k][n]) / all]
@@ -316,14 +314,6 @@ impl Nurbs {
     /// How many Bezier patches it has.
     pub fn patches(&self) -> usize {
         self.spans.len()
-    }
-
-    #[inline(never)]
-    fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        Isa::detect().run(
-            #[inline(always)]
-            || self.shell.roots(ray, sink),
-        );
     }
 }
 
@@ -357,44 +347,20 @@ impl PartialEq for Nurbs {
     }
 }
 
-impl Surface for Nurbs {
-    fn name(&self) -> &'static str {
-        "NURBS surface"
-    }
+impl Patches for Nurbs {
+    const NAME: &'static str = "NURBS surface";
 
-    fn bounds(&self) -> Aabb {
-        self.shell.bounds
-    }
-
-    #[inline(always)]
-    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        if !ray.passes_by(self.shell.centre, self.shell.reach) {
-            self.all_roots(ray, &mut Forward(sink));
-        }
+    fn shell(&self) -> &Shell {
+        &self.shell
     }
 
     /// Texture coordinates: the parameters, from 0 to 1 over the whole surface.
-    #[inline(never)]
-    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, _need: Need) -> SurfacePoint {
-        let mut point = Isa::detect().run(
-            #[inline(always)]
-            || self.shell.point(ray, root),
-        );
+    fn map_uv(&self, root: &Root, point: &mut SurfacePoint, _need: Need) {
         if let Some([from, width]) = self.spans.get(root.face as usize) {
             point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
             (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
         }
-        point
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.shell.bounds)
     }
 }
 
-impl Algebraic for Nurbs {
-    /// Along a ray it has no polynomial of low degree.
-    fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        None
-    }
-}
+surface_of_patches!(Nurbs);

@@ -2,13 +2,13 @@
 
 use super::cell::{Cell, cells};
 use super::line::{Found, Line, View};
-use super::net::{Homogeneous, Net};
+use super::net::{FaceNet, Homogeneous, relative};
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Dd, Point3, U, Vec3};
+use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 
 /// Cells farther than this from the ray's range, in units, are not looked at: far more than any
 /// bracket of a proven crossing is wide.
@@ -16,14 +16,19 @@ const ROOM: f64 = 1.0 / 1024.0;
 
 /// A patch as it is resolved: its control points in units, and the patch's own rounding of them.
 #[derive(Clone, Debug)]
-pub(super) struct Face {
+pub(crate) struct Face {
     pub(super) size: [usize; 2],
+    /// Over the square, also of a triangle.
     pub(super) net: Box<[Homogeneous<f64>]>,
+    pub(super) is_triangle: bool,
+    /// The least weight, and the largest number of the net; with weights twice that.
+    pub(super) lightest: f64,
+    pub(super) largest: f64,
 }
 
 /// Patches in units about a common centre.
 #[derive(Clone, Debug)]
-pub(super) struct Shell {
+pub(crate) struct Shell {
     pub(super) bounds: Aabb,
     pub(super) centre: Point3,
     pub(super) scale: i32,
@@ -47,11 +52,51 @@ thread_local! {
     static LISTS: Slot<Lists> = Slot::default();
 }
 
+impl Face {
+    fn new(net: &FaceNet, rational: bool) -> Self {
+        let own = relative(net.points(), [0.0; 3]);
+        let square = net.part([0.0; 2], [1.0; 2]);
+        let points = square.relative([0.0; 3]);
+        let (mut lightest, mut largest) = (1.0, 1.0);
+        if rational {
+            lightest = own.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
+            largest = 2.0 * points.iter().fold(0.0, |m: f64, p| m.max(p[3].abs()));
+        }
+        if net.is_triangle() {
+            largest = points.iter().flatten().fold(largest, |m: f64, x| m.max(x.abs()));
+        }
+        Self { size: square.size, net: points.into(), is_triangle: net.is_triangle(), lightest, largest }
+    }
+
+    /// A point in the middle of the parameters.
+    pub(super) fn middle(&self) -> [f64; 2] {
+        [if self.is_triangle { 1.0 / 3.0 } else { 0.5 }; 2]
+    }
+
+    /// Parameters moved into the patch.
+    #[inline(always)]
+    fn clamped(&self, uv: [f64; 2]) -> [f64; 2] {
+        let [u, v] = uv.map(|x| x.clamp(0.0, 1.0));
+        if self.is_triangle && u + v > 1.0 {
+            let over = 0.5 * (u + v - 1.0);
+            return [(u - over).max(0.0), (v - over).max(0.0)];
+        }
+        [u, v]
+    }
+
+    /// Whether a crossing may be on an edge.
+    #[inline(always)]
+    fn has_on_edge(&self, f: &Found) -> bool {
+        (0..2).any(|k| f.uv[k] <= f.radius[k] || !self.is_triangle && f.uv[k] + f.radius[k] >= 1.0)
+            || self.is_triangle && f.uv[0] + f.uv[1] + f.radius[0] + f.radius[1] >= 1.0
+    }
+}
+
 impl Shell {
     /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
     /// are the same.
-    pub(super) fn new(nets: &[Net]) -> Option<Self> {
-        let points = || nets.iter().flat_map(|net| &net.points);
+    pub(crate) fn new(nets: &[FaceNet]) -> Option<Self> {
+        let points = || nets.iter().flat_map(FaceNet::points);
         let place = |p: &Homogeneous<Dd>| {
             let w = p[3].to_f64();
             Point3::new(p[0].to_f64() / w, p[1].to_f64() / w, p[2].to_f64() / w)
@@ -74,11 +119,11 @@ impl Shell {
                 let of = |k: usize| (p[k] - middle[k] * p[3]).scale2(-scale - weight_scale);
                 [of(0), of(1), of(2), p[3].scale2(-weight_scale)]
             };
-            let net = Net { size: net.size, points: net.points.iter().map(about).collect() };
-            faces.push(Face { size: net.size, net: net.relative([0.0; 3]).into() });
+            let net = net.map(about);
+            faces.push(Face::new(&net, rational));
             cells(&net, rational, face as u32, &mut all);
         }
-        let boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
+        let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
         let (tree, order) = Tree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
@@ -87,21 +132,29 @@ impl Shell {
         let bounds = Aabb::new(back(units.min), back(units.max));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude());
         let bounds = bounds.expanded(room).intersection(hull.expanded(room));
-        let cells = order.iter().map(|&i| all[i as usize].clone()).collect();
+        let cells = order.iter().map(|&i| all[i as usize].0.clone()).collect();
         Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree })
     }
 
     /// Passes all crossings to `sink`, ascending.
+    #[inline(never)]
+    pub(crate) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.roots(ray, sink),
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+    fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
         self.meet(&at, &mut lists, sink.limit());
         if !lists.found.is_empty() {
-            let found = distinct(&mut lists.found);
+            let found = self.distinct(&mut lists.found);
             let mut roots = Sorted::new();
             for crossing in found {
-                if let Some(root) = root(&at, crossing) {
+                if let Some(root) = self.root(&at, crossing) {
                     roots.push(root);
                 }
             }
@@ -153,54 +206,84 @@ fn overlap(a: &Found, b: &Found) -> bool {
     (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() <= a.radius[k] + b.radius[k])
 }
 
-/// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
-/// the same place of the line, in the same direction.
-#[inline(always)]
-fn is_shared(a: &Found, b: &Found) -> bool {
-    let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
-    let alike = a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
-    alike && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
-}
+impl Shell {
+    /// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
+    /// the same place of the line, in the same direction.
+    #[inline(always)]
+    fn is_shared(&self, a: &Found, b: &Found) -> bool {
+        let on_edge = |f: &Found| self.faces[f.face as usize].has_on_edge(f);
+        let alike = a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
+        alike && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+    }
 
-/// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
-/// each other and in which nothing is proven.
-#[inline(always)]
-fn distinct(found: &mut Vec<Found>) -> &[Found] {
-    if found.len() > 1 {
-        // Proven ones first.
-        found.sort_by_key(|f| f.sign == 0);
-        let mut kept = 0;
-        for i in 0..found.len() {
-            let new = found[i];
-            let same = |old: &Found| {
-                if old.face == new.face {
-                    is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
-                } else {
-                    is_shared(&new, old)
-                }
-            };
-            match found[..kept].iter().position(same) {
-                Some(k) => {
-                    let old = &mut found[k];
-                    let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
-                    if old.sign == 0 || !known {
-                        // Nothing says whether that is one crossing or two.
-                        *old = joined(old, &new);
-                    } else if new.sign != 0 && new.s_err < old.s_err {
-                        // Of two proofs the sharper one is kept.
-                        *old = new;
+    /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
+    /// each other and in which nothing is proven.
+    #[inline(always)]
+    fn distinct<'f>(&self, found: &'f mut Vec<Found>) -> &'f [Found] {
+        if found.len() > 1 {
+            // Proven ones first.
+            found.sort_by_key(|f| f.sign == 0);
+            let mut kept = 0;
+            for i in 0..found.len() {
+                let new = found[i];
+                let same = |old: &Found| {
+                    if old.face == new.face {
+                        is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
+                    } else {
+                        self.is_shared(&new, old)
+                    }
+                };
+                match found[..kept].iter().position(same) {
+                    Some(k) => {
+                        let old = &mut found[k];
+                        let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
+                        if old.sign == 0 || !known {
+                            // Nothing says whether that is one crossing or two.
+                            *old = joined(old, &new);
+                        } else if new.sign != 0 && new.s_err < old.s_err {
+                            // Of two proofs the sharper one is kept.
+                            *old = new;
+                        }
+                    }
+                    None => {
+                        found[kept] = new;
+                        kept += 1;
                     }
                 }
-                None => {
-                    found[kept] = new;
-                    kept += 1;
-                }
             }
+            found.truncate(kept);
+            join_all(found);
         }
-        found.truncate(kept);
-        join_all(found);
+        found
     }
-    found
+
+    /// A crossing in the caller's parameter; `None` if it is not in the ray's range.
+    #[inline(always)]
+    fn root(&self, at: &CentredRay<'_>, found: &Found) -> Option<Root> {
+        let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
+        match at.admits(lo, hi) {
+            Some(false) => return None,
+            // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
+            // start is the start.
+            None if lo <= 0.0 && at.spawned().is_some_and(|(_, face, _)| face == found.face) => return None,
+            _ => {}
+        }
+        let (kind, sign) = match (found.sign, found.turn) {
+            (0, 0) => (RootKind::Grazing, 0),
+            (0, turn) => (RootKind::Cluster, turn),
+            (sign, _) => (RootKind::Simple, sign),
+        };
+        Some(Root {
+            t: at.t(found.s).max(lo).min(hi),
+            lo,
+            hi,
+            s: found.s,
+            tag: self.faces[found.face as usize].clamped(found.uv),
+            face: found.face,
+            sign,
+            kind,
+        })
+    }
 }
 
 /// Joins unproven boxes until none touches another.
@@ -240,32 +323,4 @@ fn joined(a: &Found, b: &Found) -> Found {
     (out.sign, out.alone) = (0, [0.0; 2]);
     out.turn = if a.turn == b.turn { a.turn } else { 0 };
     out
-}
-
-/// A crossing in the caller's parameter; `None` if it is not in the ray's range.
-#[inline(always)]
-fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
-    let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
-    match at.admits(lo, hi) {
-        Some(false) => return None,
-        // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
-        // start is the start.
-        None if lo <= 0.0 && at.spawned().is_some_and(|(_, face, _)| face == found.face) => return None,
-        _ => {}
-    }
-    let (kind, sign) = match (found.sign, found.turn) {
-        (0, 0) => (RootKind::Grazing, 0),
-        (0, turn) => (RootKind::Cluster, turn),
-        (sign, _) => (RootKind::Simple, sign),
-    };
-    Some(Root {
-        t: at.t(found.s).max(lo).min(hi),
-        lo,
-        hi,
-        s: found.s,
-        tag: found.uv.map(|x| x.clamp(0.0, 1.0)),
-        face: found.face,
-        sign,
-        kind,
-    })
 }

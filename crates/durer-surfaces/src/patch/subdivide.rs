@@ -171,6 +171,10 @@ fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
     let mut steps = 0;
     while let Some(part) = open.pop() {
+        // Beyond the patch; sums of such fractions are exact.
+        if cell.is_half && part.from[0] + part.from[1] >= 1.0 {
+            continue;
+        }
         if part.is_clear_of([1.0, 0.0]) || part.is_clear_of([0.0, 1.0]) {
             continue;
         }
@@ -203,7 +207,7 @@ fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
             });
             if let Some(zero) = view.zero(x, &own, &region) {
                 if touches(&zero, part.from, part.width) {
-                    out.push(view.found(&zero));
+                    out.extend(view.found(&zero));
                 }
                 continue;
             }
