@@ -6,7 +6,8 @@ use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
     Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
-    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, Warp,
+    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop,
+    Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -205,8 +206,23 @@ fn nurbs(
     degree: [usize; 2],
     knots: [Vec<f64>; 2],
     periodic: [bool; 2],
+    trims: Vec<TrimCurve>,
 ) -> PyResult<Object> {
-    checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic })))
+    let trims = trims.into_iter().map(trim_loop).collect::<PyResult<_>>()?;
+    checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic, trims })))
+}
+
+/// The kind of a trim, its points with their weights, and its degree and knots if it has any.
+type TrimCurve = (String, Vec<V3>, usize, Vec<f64>);
+
+fn trim_loop((kind, points, degree, knots): TrimCurve) -> PyResult<TrimLoop> {
+    let flat = || points.iter().map(|p| [p[0], p[1]]).collect();
+    match kind.as_str() {
+        "polygon" => Ok(TrimLoop::Polygon(flat())),
+        "bezier" => Ok(TrimLoop::Bezier(flat())),
+        "nurbs" => Ok(TrimLoop::Nurbs { degree, points, knots }),
+        other => Err(value_error(format!("trims: a kind is 'polygon', 'bezier' or 'nurbs', got '{other}'"))),
+    }
 }
 
 #[pyfunction]

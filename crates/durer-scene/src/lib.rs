@@ -64,5 +64,5 @@ pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
     BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData, NurbsError,
-    SweepSpline, Terrain, TerrainData, Warp, tape,
+    SweepSpline, Terrain, TerrainData, TrimError, TrimLoop, Warp, tape,
 };

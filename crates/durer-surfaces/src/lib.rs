@@ -106,7 +106,9 @@ pub use crate::lemon::LemonError;
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
-pub use crate::patch::{BezierPatch, Nurbs, NurbsData, NurbsError, PatchError, TriangularPatch};
+pub use crate::patch::{
+    BezierPatch, Nurbs, NurbsData, NurbsError, PatchError, TriangularPatch, TrimError, TrimLoop,
+};
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
 pub use crate::polygon::{FillRule, Polygon, PolygonError};

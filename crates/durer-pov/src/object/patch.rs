@@ -6,8 +6,9 @@ use std::rc::Rc;
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
+use crate::lexer::Mark;
 use crate::parser::Parser;
-use durer_scene::{NurbsData, Patch, TriangularPatch};
+use durer_scene::{NurbsData, Patch, TriangularPatch, TrimLoop};
 
 /// How the points of a `patch` make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,7 +196,8 @@ impl Parser<'_> {
         }
     }
 
-    /// `degree DU, DV points NU, NV, points [u_knots ...] [v_knots ...] [periodic u | v | u v]`.
+    /// `degree DU, DV points NU, NV, points [u_knots ...] [v_knots ...] [periodic u | v | u v]
+    /// [trim { loop } ...]`.
     pub(super) fn nurbs(&mut self, place: Place) -> Result<Shape> {
         let mut data = NurbsData::default();
         let (mut has_degree, mut has_points) = (false, false);
@@ -226,7 +228,9 @@ impl Parser<'_> {
                     return Err(Error::invalid(at, text));
                 }
             } else if self.small_word("trim")? {
-                return Err(Error::unsupported(at, "trim"));
+                self.expect(Mark::BraceOpen)?;
+                data.trims.push(self.trim_loop()?);
+                self.expect(Mark::BraceClose)?;
             } else {
                 break;
             }
@@ -245,6 +249,54 @@ impl Parser<'_> {
             return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
         }
         Ok(Shape::Nurbs(Rc::new(data)))
+    }
+
+    /// `linear_spline N, <u, v>, ...`, `bezier_spline N, <u, v>, ...` or `nurbs_curve degree D, N,
+    /// <u, v> or <u, v, w>, ... knots COUNT, ...`.
+    fn trim_loop(&mut self) -> Result<TrimLoop> {
+        self.peek()?;
+        let at = self.here();
+        if self.take_word(Keyword::LinearSpline)? {
+            return Ok(TrimLoop::Polygon(self.plane_points()?));
+        }
+        if self.take_word(Keyword::BezierSpline)? {
+            return Ok(TrimLoop::Bezier(self.plane_points()?));
+        }
+        if !self.small_word("nurbs_curve")? {
+            let text = "a trim is a linear_spline, a bezier_spline or a nurbs_curve";
+            return Err(Error::invalid(at, text));
+        }
+        if !self.small_word("degree")? {
+            return Err(Error::invalid(at, "this nurbs_curve lacks `degree D`"));
+        }
+        let degree = self.whole_from("the degree of a nurbs_curve", 1, 9)?;
+        let count = self.whole_from("the number of points of a nurbs_curve", 2, MOST_POINTS)?;
+        let mut points = Vec::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            self.check_memory(n * 24, at)?;
+            let value = self.expression()?;
+            self.skip_comma()?;
+            let [u, v, w] = value.xyz();
+            points.push([u, v, if value.as_slice().len() > 2 { w } else { 1.0 }]);
+        }
+        let knots = if self.small_word("knots")? { self.knots()? } else { Vec::new() };
+        Ok(TrimLoop::Nurbs { degree, points, knots })
+    }
+
+    /// How many points of the parameters, and these.
+    fn plane_points(&mut self) -> Result<Vec<[f64; 2]>> {
+        let count = self.whole_from("the number of points of a trim", 3, MOST_POINTS)?;
+        let mut points = Vec::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            self.check_memory(n * 16, at)?;
+            points.push(self.vector2()?);
+            self.skip_comma()?;
+        }
+        Ok(points)
     }
 
     /// How many knots, and these.

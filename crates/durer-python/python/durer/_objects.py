@@ -553,6 +553,24 @@ def _flat(net: _Net) -> tuple[tuple[tuple[float, ...], ...], tuple[int, int]]:
     return tuple(point for row in net for point in row), (columns, len(net))
 
 
+_Trim = tuple[str, tuple[tuple[float, ...], ...], int, tuple[float, ...]]
+
+
+def _trim(trim: Any) -> _Trim:
+    """A closed curve in the parameters: its kind, points with weights, degree and knots."""
+    kind, points, degree, knots = "polygon", trim, 0, ()
+    if len(trim) > 0 and isinstance(trim[0], str):
+        kind, points = trim[0], trim[1]
+        degree = int(trim[2]) if len(trim) > 2 else 0
+        knots = tuple(real_array(trim[3], "knots").ravel().tolist()) if len(trim) > 3 else ()
+    rows = real_array(points, "trims")
+    if rows.ndim != 2 or rows.shape[1] not in (2, 3):
+        raise ValueError(f"trims: points of shape (n, 2), or (n, 3) with weights, are needed, got {rows.shape}")
+    if rows.shape[1] == 2:
+        rows = np.concatenate([rows, np.ones((len(rows), 1))], axis=1)
+    return kind, tuple(tuple(row) for row in rows.tolist()), degree, knots
+
+
 @final
 class BezierPatch(Object):
     """The Bezier patch of a net of control points (rows, columns, 3), 2 to 16 of each; u runs along a row, v from row to row.
@@ -609,6 +627,10 @@ class Nurbs(Object):
 
     `knots` are two lists, along u (the columns) and along v; without them they are uniform, with the surface's ends at
     the outer points. What is periodic has one knot more than points, and its points go round. An open surface.
+
+    `trims` are closed curves in (u, v), as the knots count them: what lies to the left of each stays, so an outer loop runs
+    counter-clockwise and a hole clockwise. A trim is an array of points (n, 2), a polygon; or ``("bezier", points)``, four
+    points for each piece; or ``("nurbs", points, degree, knots)`` with points (n, 2), or (n, 3) with weights.
     """
 
     __slots__ = ()
@@ -619,14 +641,16 @@ class Nurbs(Object):
         degree: tuple[int, int],
         knots: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
         periodic: tuple[bool, bool] = (False, False),
+        trims: Sequence[Any] = (),
     ) -> None:
         net = _net(points)
         lists = ((), ()) if knots is None else knots
         u, v = (tuple(real_array(values, "knots").ravel().tolist()) for values in lists)
         degrees, both = (int(degree[0]), int(degree[1])), (u, v)
         closed = (bool(periodic[0]), bool(periodic[1]))
-        native = _native.nurbs(*_flat(net), degrees, both, closed)
-        self._set(native, (net, degrees, both, closed))
+        loops = tuple(_trim(trim) for trim in trims)
+        native = _native.nurbs(*_flat(net), degrees, both, closed, loops)
+        self._set(native, (net, degrees, both, closed, loops) if loops else (net, degrees, both, closed))
 
 
 @final

@@ -26,6 +26,8 @@ pub(super) struct Cell {
     pub(super) face: u32,
     /// Whether only its lower left half is of the patch, which is a triangle.
     pub(super) is_half: bool,
+    /// Whether trims pass through it.
+    pub(super) is_cut: bool,
     /// The least parameters, in the patch.
     pub(super) from: [f64; 2],
     /// How far the parameters go on from there.
@@ -193,6 +195,7 @@ impl Cell {
         let cell = Self {
             face,
             is_half,
+            is_cut: false,
             from,
             width,
             base,

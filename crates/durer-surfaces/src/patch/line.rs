@@ -88,6 +88,8 @@ pub(super) struct Found {
     pub(super) sign: i8,
     /// Where nothing is proven: that sign at some points round about, 0 if they differ.
     pub(super) turn: i8,
+    /// Whether it may be on a trim.
+    pub(super) on_trim: bool,
 }
 
 impl Found {
@@ -248,6 +250,7 @@ impl<'a> View<'a> {
             s_err,
             sign,
             turn: sign,
+            on_trim: false,
         };
         (!cell.is_half || found.reaches_triangle()).then_some(found)
     }
@@ -289,6 +292,7 @@ impl<'a> View<'a> {
             s_err,
             sign: 0,
             turn: self.turn(from, width),
+            on_trim: false,
         }
     }
 }

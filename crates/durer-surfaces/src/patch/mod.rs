@@ -38,6 +38,7 @@ mod subdivide;
 mod surface;
 mod triangle_net;
 mod triangular;
+mod trim;
 
 use crate::{Need, Root, SurfacePoint};
 use durer_math::Point3;
@@ -48,6 +49,7 @@ use surface::{Patches, surface_of_patches};
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
 pub use triangular::TriangularPatch;
+pub use trim::{TrimError, TrimLoop};
 
 /// Why a [`BezierPatch`] or a [`TriangularPatch`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

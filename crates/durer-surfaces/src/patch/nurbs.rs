@@ -13,8 +13,9 @@
 //! W. Tiller, *The NURBS Book*, 2nd ed. 1997.
 
 use super::net::{FaceNet, Homogeneous, Net, between};
-use super::shell::Shell;
+use super::shell::{FaceTrim, Shell};
 use super::surface::{Patches, surface_of_patches};
+use super::trim::{TrimError, TrimLoop, Trims};
 use super::{LARGEST, WEIGHTS};
 use crate::{Need, Root, SurfacePoint};
 use durer_math::Dd;
@@ -38,15 +39,29 @@ pub struct NurbsData {
     pub knots: [Vec<f64>; 2],
     /// Whether points and knots go round.
     pub periodic: [bool; 2],
+    /// Loops that do not cross: what lies to the left of them stays. Empty: all of the surface. A loop
+    /// within another runs the other way round.
+    pub trims: Vec<TrimLoop>,
 }
 
 impl NurbsData {
     /// Whether these numbers make a surface, before it is built. That all points are the same is not
     /// looked for.
     pub fn check(&self) -> Result<(), NurbsError> {
-        full_knots(self, 0)?;
-        full_knots(self, 1)?;
-        check(self)
+        let full = [full_knots(self, 0)?, full_knots(self, 1)?];
+        check(self)?;
+        self.trims(&full).map(|_| ())
+    }
+
+    /// The trims, if there are any.
+    fn trims(&self, full: &[(Vec<f64>, usize); 2]) -> Result<Option<Trims>, NurbsError> {
+        if self.trims.is_empty() {
+            return Ok(None);
+        }
+        let ends = [0, 1].map(|k: usize| [full[k].0[self.degree[k]], full[k].0[full[k].1]]);
+        let domain = [[ends[0][0], ends[1][0]], [ends[0][1], ends[1][1]]];
+        let made = Trims::new(&self.trims, domain);
+        made.map(Some).map_err(|(number, why)| NurbsError::Trim { number, why })
     }
 }
 
@@ -140,7 +155,15 @@ pub enum NurbsError {
     /// The weights differ by more than can be computed with.
     #[error("nurbs: the largest weight is {0} times the least, which is too much")]
     Weights(f64),
-    /// All points are the same.
+    /// A trim cannot be one.
+    #[error("nurbs: trim {number}: {why}")]
+    Trim {
+        /// The trim, from 1.
+        number: usize,
+        /// Why.
+        why: TrimError,
+    },
+    /// All points are the same, or trims leave nothing.
     #[error("nurbs: all its points are the same, so it has no surface")]
     Nothing,
 }
@@ -244,7 +267,11 @@ fn insert(curve: &mut Vec<Homogeneous<Dd>>, knots: &[f64], degree: usize, knot: 
 
 /// The Bezier control points of a curve, span after span, neighbours sharing their ends; and the
 /// knots between which the spans are.
-fn spans(curve: &[Homogeneous<Dd>], knots: &[f64], degree: usize) -> (Vec<Homogeneous<Dd>>, Vec<f64>) {
+pub(super) fn spans(
+    curve: &[Homogeneous<Dd>],
+    knots: &[f64],
+    degree: usize,
+) -> (Vec<Homogeneous<Dd>>, Vec<f64>) {
     let (mut curve, mut knots) = (curve.to_vec(), knots.to_vec());
     let (from, to) = (knots[degree], knots[curve.len()]);
     let mut ends: Vec<f64> = knots.iter().copied().filter(|t| (from..=to).contains(t)).collect();
@@ -287,13 +314,17 @@ impl Nurbs {
             ends[1] = knots;
         }
         let [pu, pv] = data.degree;
-        let (mut nets, mut parts) = (vec![], vec![]);
+        let trims = data.trims(&full)?.map(Arc::new);
+        let (mut nets, mut parts, mut cuts) = (vec![], vec![], vec![]);
         let whole = [0, 1].map(|k: usize| [ends[k][0], ends[k][ends[k].len() - 1] - ends[k][0]]);
         for b in 0..ends[1].len() - 1 {
             for a in 0..ends[0].len() - 1 {
                 let net = (0..=pv).flat_map(|j| (0..=pu).map(move |i| (a * pu + i, b * pv + j)));
                 let points = net.map(|(i, j)| columns[i][j]).collect();
                 nets.push(FaceNet::Square(Net { size: [pu + 1, pv + 1], points }));
+                let span = |k: usize, n: usize| [ends[k][n], ends[k][n + 1] - ends[k][n]];
+                let ([u, du], [v, dv]) = (span(0, a), span(1, b));
+                cuts.push(([u, v], [du, dv]));
                 let part = |k: usize, n: usize| {
                     let [from, all] = whole[k];
                     [(ends[k][n] - from) / all, (ends[k][n + 1] - ends[k][n]) / all]
@@ -302,7 +333,11 @@ impl Nurbs {
                 parts.push([[u, v], [du, dv]]);
             }
         }
-        let shell = Shell::new(&nets).ok_or(NurbsError::Nothing)?;
+        let cut = |face: usize| {
+            let (from, width) = cuts[face];
+            trims.clone().map(|trims| FaceTrim { trims, from, width })
+        };
+        let shell = Shell::trimmed(&nets, cut).ok_or(NurbsError::Nothing)?;
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: parts.into() })
     }
 

@@ -3,12 +3,15 @@
 use super::cell::{Cell, cells};
 use super::line::{Found, Line, View};
 use super::net::{FaceNet, Homogeneous, relative};
+use super::trim::Trims;
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
+use crate::roots::two_unknowns::ROUNDED;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
+use std::sync::Arc;
 
 /// Cells farther than this from the ray's range, in units, are not looked at: far more than any
 /// bracket of a proven crossing is wide.
@@ -24,6 +27,28 @@ pub(crate) struct Face {
     /// The least weight, and the largest number of the net; with weights twice that.
     pub(super) lightest: f64,
     pub(super) largest: f64,
+    trim: Option<FaceTrim>,
+}
+
+/// The trims of a face, and the parameters that they count by: where the face's begin and how far they
+/// go on.
+#[derive(Clone, Debug)]
+pub(super) struct FaceTrim {
+    pub(super) trims: Arc<Trims>,
+    pub(super) from: [f64; 2],
+    pub(super) width: [f64; 2],
+}
+
+impl FaceTrim {
+    /// Whether parameters of the face within a distance stay.
+    fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
+        let at = [0, 1].map(|k| f64::mul_add(self.width[k], uv[k], self.from[k]));
+        let off = [0, 1].map(|k| {
+            let rounding = 4.0 * U * (self.from[k].abs() + self.width[k]);
+            (self.width[k] * radius[k] + rounding) * ROUNDED
+        });
+        self.trims.keeps(at, off)
+    }
 }
 
 /// Patches in units about a common centre.
@@ -53,7 +78,7 @@ thread_local! {
 }
 
 impl Face {
-    fn new(net: &FaceNet, rational: bool) -> Self {
+    fn new(net: &FaceNet, rational: bool, trim: Option<FaceTrim>) -> Self {
         let own = relative(net.points(), [0.0; 3]);
         let square = net.part([0.0; 2], [1.0; 2]);
         let points = square.relative([0.0; 3]);
@@ -65,7 +90,8 @@ impl Face {
         if net.is_triangle() {
             largest = points.iter().flatten().fold(largest, |m: f64, x| m.max(x.abs()));
         }
-        Self { size: square.size, net: points.into(), is_triangle: net.is_triangle(), lightest, largest }
+        let is_triangle = net.is_triangle();
+        Self { size: square.size, net: points.into(), is_triangle, lightest, largest, trim }
     }
 
     /// A point in the middle of the parameters.
@@ -88,6 +114,7 @@ impl Face {
     #[inline(always)]
     fn has_on_edge(&self, f: &Found) -> bool {
         (0..2).any(|k| f.uv[k] <= f.radius[k] || !self.is_triangle && f.uv[k] + f.radius[k] >= 1.0)
+            || f.on_trim
             || self.is_triangle && f.uv[0] + f.uv[1] + f.radius[0] + f.radius[1] >= 1.0
     }
 }
@@ -96,6 +123,11 @@ impl Shell {
     /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
     /// are the same.
     pub(crate) fn new(nets: &[FaceNet]) -> Option<Self> {
+        Self::trimmed(nets, |_| None)
+    }
+
+    /// The shell of nets, each with its trims; `None` also if nothing is left of them.
+    pub(super) fn trimmed(nets: &[FaceNet], trim: impl Fn(usize) -> Option<FaceTrim>) -> Option<Self> {
         let points = || nets.iter().flat_map(FaceNet::points);
         let place = |p: &Homogeneous<Dd>| {
             let w = p[3].to_f64();
@@ -120,8 +152,16 @@ impl Shell {
                 [of(0), of(1), of(2), p[3].scale2(-weight_scale)]
             };
             let net = net.map(about);
-            faces.push(Face::new(&net, rational));
+            let first = all.len();
             cells(&net, rational, face as u32, &mut all);
+            let trim = trim(face);
+            if let Some(trim) = &trim {
+                cut_off(trim, &mut all, first);
+            }
+            faces.push(Face::new(&net, rational, trim));
+        }
+        if all.is_empty() {
+            return None;
         }
         let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
         let (tree, order) = Tree::new(&boxes);
@@ -186,7 +226,11 @@ impl Shell {
                 }
                 Inner::Leaf(from, to) => {
                     for cell in &self.cells[from..to] {
+                        let first = found.len();
                         View::new(&line, cell, self.rational).meet(found);
+                        if cell.is_cut {
+                            self.trim(found, first);
+                        }
                     }
                 }
             }
@@ -207,6 +251,24 @@ fn overlap(a: &Found, b: &Found) -> bool {
 }
 
 impl Shell {
+    /// Leaves out crossings, from the first of these on, that are surely cut off. What may be is an
+    /// uncertain one.
+    fn trim(&self, found: &mut Vec<Found>, first: usize) {
+        let mut kept = first;
+        for i in first..found.len() {
+            let mut f = found[i];
+            let trim = self.faces[f.face as usize].trim.as_ref();
+            match trim.map_or(Some(true), |trim| trim.keeps(f.uv, f.radius)) {
+                Some(false) => continue,
+                Some(true) => {}
+                None => (f.on_trim, f.sign, f.alone) = (true, 0, [0.0; 2]),
+            }
+            found[kept] = f;
+            kept += 1;
+        }
+        found.truncate(kept);
+    }
+
     /// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
     /// the same place of the line, in the same direction.
     #[inline(always)]
@@ -286,6 +348,22 @@ impl Shell {
     }
 }
 
+/// Leaves out cells, from the first of these on, that are cut off, and marks those that a trim passes
+/// through.
+fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize) {
+    let mut number = 0;
+    all.retain_mut(|(cell, _)| {
+        number += 1;
+        if number <= first {
+            return true;
+        }
+        let half = cell.width.map(|w| 0.5 * w);
+        let kept = trim.keeps([0, 1].map(|k| cell.from[k] + half[k]), half);
+        cell.is_cut = kept.is_none();
+        kept != Some(false)
+    });
+}
+
 /// Joins unproven boxes until none touches another.
 fn join_all(found: &mut Vec<Found>) {
     let mut changed = true;
@@ -322,5 +400,6 @@ fn joined(a: &Found, b: &Found) -> Found {
     (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
     (out.sign, out.alone) = (0, [0.0; 2]);
     out.turn = if a.turn == b.turn { a.turn } else { 0 };
+    out.on_trim = a.on_trim || b.on_trim;
     out
 }

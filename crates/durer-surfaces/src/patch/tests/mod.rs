@@ -1,6 +1,7 @@
 //! Tests of patches.
 
 mod triangular;
+mod trims;
 mod witness;
 
 use super::*;
@@ -401,7 +402,7 @@ fn sphere() -> Nurbs {
             vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0],
             vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0],
         ],
-        periodic: [false; 2],
+        ..NurbsData::default()
     })
     .unwrap()
 }
