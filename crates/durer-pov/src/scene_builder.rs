@@ -461,6 +461,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(data.points.len() * 32);
             scene::Shape::Nurbs(Arc::new((**data).clone()))
         }
+        Shape::Sewn(data) => {
+            limits::charge_for_good(data.surfaces.iter().map(|s| s.points.len() * 32).sum());
+            scene::Shape::Sewn(Arc::new((**data).clone()))
+        }
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
             let (base, apex) = (point(base), point(apex));

@@ -212,6 +212,19 @@ fn nurbs(
     checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic, trims })))
 }
 
+/// Surfaces of NURBS objects as one.
+#[pyfunction]
+fn sewn(surfaces: Vec<PyRef<'_, Object>>, seal: f64, closed: bool) -> PyResult<Object> {
+    let mut data = SewnData { surfaces: Vec::new(), seal, closed };
+    for (i, surface) in surfaces.iter().enumerate() {
+        let Shape::Nurbs(nurbs) = &surface.SHAPE else {
+            return Err(value_error(format!("surfaces: surface {i} is not a Nurbs, as it was made")));
+        };
+        data.surfaces.push((**nurbs).clone());
+    }
+    checked(Shape::Sewn(Arc::new(data)))
+}
+
 /// The kind of a trim, its points with their weights, and its degree and knots if it has any.
 type TrimCurve = (String, Vec<V3>, usize, Vec<f64>);
 

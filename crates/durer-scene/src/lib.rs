@@ -64,5 +64,5 @@ pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
     BlobComponent, BlobShape, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData, NurbsError,
-    SweepSpline, Terrain, TerrainData, TrimError, TrimLoop, Warp, tape,
+    SewnData, SewnError, SweepSpline, Terrain, TerrainData, TrimError, TrimLoop, Warp, tape,
 };

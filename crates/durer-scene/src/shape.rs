@@ -7,7 +7,7 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SweepSpline, Terrain,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SewnData, SweepSpline, Terrain,
     Texture, Warp,
 };
 
@@ -134,6 +134,8 @@ pub enum Shape {
     TriangularPatch(Arc<TriangularPatch>),
     /// A surface of non-uniform rational B-splines.
     Nurbs(Arc<NurbsData>),
+    /// NURBS surfaces that share edges: a solid if they are closed.
+    Sewn(Arc<SewnData>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.

@@ -107,7 +107,8 @@ pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::patch::{
-    BezierPatch, Nurbs, NurbsData, NurbsError, PatchError, TriangularPatch, TrimError, TrimLoop,
+    BezierPatch, Nurbs, NurbsData, NurbsError, PatchError, Sewn, SewnData, SewnError, TriangularPatch,
+    TrimError, TrimLoop,
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

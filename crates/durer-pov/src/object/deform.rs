@@ -225,6 +225,7 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::Patch(_) => "a patch",
         Shape::TriangularPatch(_) => "a triangular patch",
         Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Sewn(_) => "a sewn surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",

@@ -45,6 +45,7 @@ pub(crate) enum Word {
     Bilinear,
     Patch,
     Nurbs,
+    Sewn,
 }
 
 impl Word {
@@ -73,6 +74,7 @@ impl Word {
             "bilinear" => Self::Bilinear,
             "patch" => Self::Patch,
             "nurbs" => Self::Nurbs,
+            "sewn" => Self::Sewn,
             _ => return None,
         })
     }
@@ -140,6 +142,7 @@ impl Parser<'_> {
             Word::Bilinear => return self.bilinear(place),
             Word::Patch => return self.spline_patch(place),
             Word::Nurbs => return self.nurbs(place),
+            Word::Sewn => return self.sewn(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

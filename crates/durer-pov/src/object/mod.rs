@@ -108,6 +108,7 @@ pub(crate) enum Shape {
     Patch(Rc<durer_scene::Patch>),
     TriangularPatch(Rc<durer_scene::TriangularPatch>),
     Nurbs(Rc<durer_scene::NurbsData>),
+    Sewn(Rc<durer_scene::SewnData>),
     Ovus {
         bottom: f64,
         top: f64,

@@ -8,7 +8,7 @@ use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
-use durer_scene::{NurbsData, Patch, TriangularPatch, TrimLoop};
+use durer_scene::{NurbsData, Patch, SewnData, TriangularPatch, TrimLoop};
 
 /// How the points of a `patch` make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -199,6 +199,42 @@ impl Parser<'_> {
     /// `degree DU, DV points NU, NV, points [u_knots ...] [v_knots ...] [periodic u | v | u v]
     /// [trim { loop } ...]`.
     pub(super) fn nurbs(&mut self, place: Place) -> Result<Shape> {
+        let data = self.nurbs_data(place)?;
+        self.checked_nurbs(data, place)
+    }
+
+    /// `nurbs { ... } nurbs { ... } ... [seal TOL] [closed]`.
+    pub(super) fn sewn(&mut self, place: Place) -> Result<Shape> {
+        let mut data = SewnData::default();
+        loop {
+            self.skip_comma()?;
+            self.peek()?;
+            let at = self.here();
+            if self.small_word("nurbs")? {
+                self.expect(Mark::BraceOpen)?;
+                let surface = self.nurbs_data(at)?;
+                surface.check().map_err(|why| Error::invalid(at, why.to_string()))?;
+                self.expect(Mark::BraceClose)?;
+                data.surfaces.push(surface);
+            } else if self.small_word("seal")? {
+                data.seal = self.float()?;
+                if !(data.seal >= 0.0 && data.seal.is_finite()) {
+                    let text = format!("the seal must be finite and not negative, not {}", data.seal);
+                    return Err(Error::invalid(at, text));
+                }
+            } else if self.small_word("closed")? {
+                data.closed = true;
+            } else {
+                break;
+            }
+        }
+        // It is made here, so that an edge without a partner is named where the block is.
+        data.check().map_err(|why| Error::invalid(place, why.to_string()))?;
+        Ok(Shape::Sewn(Rc::new(data)))
+    }
+
+    /// The numbers of a `nurbs`, not yet checked.
+    fn nurbs_data(&mut self, place: Place) -> Result<NurbsData> {
         let mut data = NurbsData::default();
         let (mut has_degree, mut has_points) = (false, false);
         loop {
@@ -239,7 +275,7 @@ impl Parser<'_> {
             let missing = if has_degree { "points NU, NV, ..." } else { "degree DU, DV" };
             return Err(Error::invalid(place, format!("this nurbs lacks `{missing}`")));
         }
-        self.checked_nurbs(data, place)
+        Ok(data)
     }
 
     /// The shape of a surface whose numbers make one.

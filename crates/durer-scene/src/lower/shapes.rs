@@ -6,7 +6,7 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
-    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
+    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sewn, Sphere, SphereSweep,
     SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, TriangularPatch,
     superellipsoid,
 };
@@ -140,6 +140,9 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             Err(nothing @ NurbsError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
+        Shape::Sewn(data) => {
+            add_closed(&mut target, Sewn::new((**data).clone()).map_err(shape_error)?, map);
+        }
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
         }
@@ -553,6 +556,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Patch(_) => "a patch",
         Shape::TriangularPatch(_) => "a triangular patch",
         Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Sewn(_) => "a sewn surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

@@ -19,6 +19,17 @@ const FINEST: u32 = 4;
 /// The most points of a row or a column.
 pub(super) const MOST: usize = 16;
 
+/// How trims pass by a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Trimmed {
+    /// All of it stays.
+    Not,
+    /// They pass through it.
+    Across,
+    /// All of it is cut off.
+    Off,
+}
+
 /// A part of a patch.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
@@ -26,8 +37,7 @@ pub(super) struct Cell {
     pub(super) face: u32,
     /// Whether only its lower left half is of the patch, which is a triangle.
     pub(super) is_half: bool,
-    /// Whether trims pass through it.
-    pub(super) is_cut: bool,
+    pub(super) trimmed: Trimmed,
     /// The least parameters, in the patch.
     pub(super) from: [f64; 2],
     /// How far the parameters go on from there.
@@ -195,7 +205,7 @@ impl Cell {
         let cell = Self {
             face,
             is_half,
-            is_cut: false,
+            trimmed: Trimmed::Not,
             from,
             width,
             base,

@@ -168,15 +168,15 @@ impl<'a> View<'a> {
         Local { f, j: [[a[0], b[0]], [a[1], b[1]]] }
     }
 
-    /// The crossings of the line and the cell.
+    /// The crossings of the line and the cell, also those beyond its edges within `room`.
     #[inline(always)]
-    pub(super) fn meet(&self, out: &mut Vec<Found>) {
+    pub(super) fn meet(&self, out: &mut Vec<Found>, room: f64) {
         let middle = self.local(&self.cell.middle);
         match self.limits.content(&middle, 0.5, 0.5 + MARGIN) {
             Content::Nothing => {}
             Content::AtMostOne([du, dv]) => match self.zero([0.5 + du, 0.5 + dv], &self.limits, &MARGINS) {
                 Some(zero) => {
-                    if touches(&zero, [0.0; 2], [1.0; 2]) {
+                    if touches(&zero, [-room; 2], [2.0f64.mul_add(room, 1.0); 2]) {
                         out.extend(self.found(&zero));
                     }
                 }

@@ -33,6 +33,9 @@ mod line;
 mod net;
 mod nurbs;
 mod point;
+mod seal;
+mod seam;
+mod sewn;
 mod shell;
 mod subdivide;
 mod surface;
@@ -48,6 +51,7 @@ use std::sync::Arc;
 use surface::{Patches, surface_of_patches};
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
+pub use sewn::{Sewn, SewnData, SewnError};
 pub use triangular::TriangularPatch;
 pub use trim::{TrimError, TrimLoop};
 

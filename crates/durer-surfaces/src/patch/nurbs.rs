@@ -289,11 +289,19 @@ pub(super) fn spans(
     (curve[begin..begin + count].to_vec(), ends)
 }
 
-impl Nurbs {
-    /// The surface of these points and knots.
-    pub fn new(data: NurbsData) -> Result<Self, NurbsError> {
-        let full = [full_knots(&data, 0)?, full_knots(&data, 1)?];
-        check(&data)?;
+/// A surface as Bezier patches: rows along `u`, one after another along `v`.
+pub(super) struct Parts {
+    pub(super) nets: Vec<FaceNet>,
+    /// The knots between which patches are, along `u` and `v`.
+    pub(super) ends: [Vec<f64>; 2],
+    pub(super) trims: Option<Arc<Trims>>,
+}
+
+impl Parts {
+    pub(super) fn new(data: &NurbsData) -> Result<Self, NurbsError> {
+        let full = [full_knots(data, 0)?, full_knots(data, 1)?];
+        check(data)?;
+        let trims = data.trims(&full)?.map(Arc::new);
         let given = Net::new(data.size, &data.points).points;
         let [nu, nv] = data.size;
         // Rows first, then columns.
@@ -314,31 +322,54 @@ impl Nurbs {
             ends[1] = knots;
         }
         let [pu, pv] = data.degree;
-        let trims = data.trims(&full)?.map(Arc::new);
-        let (mut nets, mut parts, mut cuts) = (vec![], vec![], vec![]);
-        let whole = [0, 1].map(|k: usize| [ends[k][0], ends[k][ends[k].len() - 1] - ends[k][0]]);
+        let mut nets = vec![];
         for b in 0..ends[1].len() - 1 {
             for a in 0..ends[0].len() - 1 {
                 let net = (0..=pv).flat_map(|j| (0..=pu).map(move |i| (a * pu + i, b * pv + j)));
                 let points = net.map(|(i, j)| columns[i][j]).collect();
                 nets.push(FaceNet::Square(Net { size: [pu + 1, pv + 1], points }));
-                let span = |k: usize, n: usize| [ends[k][n], ends[k][n + 1] - ends[k][n]];
-                let ([u, du], [v, dv]) = (span(0, a), span(1, b));
-                cuts.push(([u, v], [du, dv]));
-                let part = |k: usize, n: usize| {
-                    let [from, all] = whole[k];
-                    [(ends[k][n] - from) / all, (ends[k][n + 1] - ends[k][n]) / all]
-                };
-                let ([u, du], [v, dv]) = (part(0, a), part(1, b));
-                parts.push([[u, v], [du, dv]]);
             }
         }
-        let cut = |face: usize| {
-            let (from, width) = cuts[face];
-            trims.clone().map(|trims| FaceTrim { trims, from, width })
+        Ok(Self { nets, ends, trims })
+    }
+
+    /// How many patches there are along `u` and along `v`.
+    pub(super) fn grid(&self) -> [usize; 2] {
+        [0, 1].map(|k: usize| self.ends[k].len() - 1)
+    }
+
+    /// The least parameters of a patch and how far they go on, as the knots count.
+    pub(super) fn span(&self, face: usize) -> [[f64; 2]; 2] {
+        let at = [face % self.grid()[0], face / self.grid()[0]];
+        let ends = [0, 1].map(|k: usize| [self.ends[k][at[k]], self.ends[k][at[k] + 1]]);
+        [ends.map(|[from, _]| from), ends.map(|[from, to]| to - from)]
+    }
+
+    /// The same as parts of the whole.
+    pub(super) fn part(&self, face: usize) -> [[f64; 2]; 2] {
+        let [from, width] = self.span(face);
+        let whole = [0, 1].map(|k: usize| [self.ends[k][0], self.ends[k][self.ends[k].len() - 1]]);
+        let all = whole.map(|[a, b]| b - a);
+        [[0, 1].map(|k: usize| (from[k] - whole[k][0]) / all[k]), [0, 1].map(|k: usize| width[k] / all[k])]
+    }
+
+    /// The least and the greatest parameters.
+    pub(super) fn domain(&self) -> [[f64; 2]; 2] {
+        [[0, 1].map(|k: usize| self.ends[k][0]), [0, 1].map(|k: usize| self.ends[k][self.ends[k].len() - 1])]
+    }
+}
+
+impl Nurbs {
+    /// The surface of these points and knots.
+    pub fn new(data: NurbsData) -> Result<Self, NurbsError> {
+        let parts = Parts::new(&data)?;
+        let trim = |face: usize| {
+            let [from, width] = parts.span(face);
+            parts.trims.clone().map(|trims| FaceTrim { trims, from, width })
         };
-        let shell = Shell::trimmed(&nets, cut).ok_or(NurbsError::Nothing)?;
-        Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: parts.into() })
+        let shell = Shell::trimmed(&parts.nets, trim, 0.0).ok_or(NurbsError::Nothing)?;
+        let spans = (0..parts.nets.len()).map(|face| parts.part(face)).collect();
+        Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans })
     }
 
     /// What it was made from.

@@ -169,7 +169,7 @@ impl Shell {
         let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
 
         let (n, tangent) = match face.normal(root.tag, &jet) {
-            Some((n, near)) => (n, Some(near)),
+            Some((n, near)) => (if face.is_turned { -n } else { n }, Some(near)),
             None => (at.d * (-1.0 / at.d.length()), None),
         };
         let bend = tangent.map_or(f64::INFINITY, |jet| jet.bend(n));

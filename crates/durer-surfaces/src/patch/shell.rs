@@ -1,6 +1,6 @@
 //! Patches as one surface: their cells in a tree, and all crossings of a ray, each once.
 
-use super::cell::{Cell, cells};
+use super::cell::{Cell, EDGE, Trimmed, cells};
 use super::line::{Found, Line, View};
 use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
@@ -27,7 +27,9 @@ pub(crate) struct Face {
     /// The least weight, and the largest number of the net; with weights twice that.
     pub(super) lightest: f64,
     pub(super) largest: f64,
-    trim: Option<FaceTrim>,
+    pub(super) trim: Option<FaceTrim>,
+    /// Whether the normal points the other way, out of a solid.
+    pub(super) is_turned: bool,
 }
 
 /// The trims of a face, and the parameters that they count by: where the face's begin and how far they
@@ -42,12 +44,18 @@ pub(super) struct FaceTrim {
 impl FaceTrim {
     /// Whether parameters of the face within a distance stay.
     fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
+        let (at, off) = self.as_knots(uv, radius);
+        self.trims.keeps(at, off)
+    }
+
+    /// Parameters and their errors, as the knots count.
+    pub(super) fn as_knots(&self, uv: [f64; 2], radius: [f64; 2]) -> ([f64; 2], [f64; 2]) {
         let at = [0, 1].map(|k| f64::mul_add(self.width[k], uv[k], self.from[k]));
         let off = [0, 1].map(|k| {
             let rounding = 4.0 * U * (self.from[k].abs() + self.width[k]);
             (self.width[k] * radius[k] + rounding) * ROUNDED
         });
-        self.trims.keeps(at, off)
+        (at, off)
     }
 }
 
@@ -64,13 +72,17 @@ pub(crate) struct Shell {
     /// In the order of the tree.
     cells: Box<[Cell]>,
     tree: Tree,
+    /// Gaps between faces up to this wide are closed, in units; 0: none are looked for.
+    pub(super) seal: f64,
 }
 
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
-struct Lists {
-    nodes: Vec<u32>,
-    found: Vec<Found>,
+pub(super) struct Lists {
+    pub(super) nodes: Vec<u32>,
+    pub(super) found: Vec<Found>,
+    /// Crossings off their face, within the seal of its edge.
+    pub(super) off: Vec<Found>,
 }
 
 thread_local! {
@@ -91,7 +103,8 @@ impl Face {
             largest = points.iter().flatten().fold(largest, |m: f64, x| m.max(x.abs()));
         }
         let is_triangle = net.is_triangle();
-        Self { size: square.size, net: points.into(), is_triangle, lightest, largest, trim }
+        let net = points.into();
+        Self { size: square.size, net, is_triangle, lightest, largest, trim, is_turned: false }
     }
 
     /// A point in the middle of the parameters.
@@ -123,11 +136,16 @@ impl Shell {
     /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
     /// are the same.
     pub(crate) fn new(nets: &[FaceNet]) -> Option<Self> {
-        Self::trimmed(nets, |_| None)
+        Self::trimmed(nets, |_| None, 0.0)
     }
 
-    /// The shell of nets, each with its trims; `None` also if nothing is left of them.
-    pub(super) fn trimmed(nets: &[FaceNet], trim: impl Fn(usize) -> Option<FaceTrim>) -> Option<Self> {
+    /// The shell of nets, each with its trims, whose gaps up to `seal` are closed; `None` also if
+    /// nothing is left of them.
+    pub(super) fn trimmed(
+        nets: &[FaceNet],
+        trim: impl Fn(usize) -> Option<FaceTrim>,
+        seal: f64,
+    ) -> Option<Self> {
         let points = || nets.iter().flat_map(FaceNet::points);
         let place = |p: &Homogeneous<Dd>| {
             let w = p[3].to_f64();
@@ -156,14 +174,16 @@ impl Shell {
             cells(&net, rational, face as u32, &mut all);
             let trim = trim(face);
             if let Some(trim) = &trim {
-                cut_off(trim, &mut all, first);
+                cut_off(trim, &mut all, first, seal > 0.0);
             }
             faces.push(Face::new(&net, rational, trim));
         }
         if all.is_empty() {
             return None;
         }
-        let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
+        let seal = scale2(seal, -scale);
+        let around = Vec3::new(seal, seal, seal);
+        let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| bounds.expanded(around)).collect();
         let (tree, order) = Tree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
@@ -171,9 +191,25 @@ impl Shell {
         let units = units.expanded(room);
         let bounds = Aabb::new(back(units.min), back(units.max));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude());
-        let bounds = bounds.expanded(room).intersection(hull.expanded(room));
+        let bounds =
+            bounds.expanded(room).intersection(hull.expanded(room + around.map(|x| scale2(x, scale))));
         let cells = order.iter().map(|&i| all[i as usize].0.clone()).collect();
-        Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree })
+        Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree, seal })
+    }
+
+    /// Points of faces that surely stay, with their faces: of a lattice, whose points are on no line that
+    /// a face is likely to be symmetric about.
+    pub(super) fn kept_points(&self) -> impl Iterator<Item = (usize, Point3)> + '_ {
+        const LATTICE: usize = 7;
+        let at = |k: usize| (k as f64 + 0.37) / LATTICE as f64;
+        let uvs = move || (0..LATTICE * LATTICE).map(move |k| [at(k / LATTICE), at(k % LATTICE)]);
+        self.faces.iter().enumerate().flat_map(move |(number, face)| {
+            let stays = |uv: &[f64; 2]| face.trim.as_ref().is_none_or(|t| t.keeps(*uv, [U; 2]) == Some(true));
+            uvs()
+                .filter(stays)
+                .take(4)
+                .map(move |uv| (number, self.centre + face.jet(uv).p.map(|x| scale2(x, self.scale))))
+        })
     }
 
     /// Passes all crossings to `sink`, ascending.
@@ -189,7 +225,11 @@ impl Shell {
     fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
-        self.meet(&at, &mut lists, sink.limit());
+        if self.seal > 0.0 {
+            self.meet_sealed(&at, &mut lists);
+        } else {
+            self.meet::<false>(&at, &mut lists, (ray.t_min, ray.t_max.min(sink.limit())));
+        }
         if !lists.found.is_empty() {
             let found = self.distinct(&mut lists.found);
             let mut roots = Sorted::new();
@@ -203,16 +243,18 @@ impl Shell {
         LISTS.set(lists);
     }
 
+    /// Crossings in a range, not yet told apart: of what stays of the faces and, if they are `SEALED`,
+    /// of what is off them but within the seal.
     #[inline(always)]
-    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, limit: f64) {
+    pub(super) fn meet<const SEALED: bool>(&self, at: &CentredRay<'_>, lists: &mut Lists, range: (f64, f64)) {
         let along = Along::new(at);
-        let ray = at.local();
-        let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
+        let (begin, end) = at.window(range);
         let (begin, end) = (begin - ROOM, end + ROOM);
         let line = Line::new(at);
-        let Lists { nodes, found } = lists;
+        let Lists { nodes, found, off } = lists;
         nodes.clear();
         found.clear();
+        off.clear();
         nodes.push(0);
         while let Some(node) = nodes.pop() {
             let Some((near, far)) = self.tree.entry(node, &along) else { continue };
@@ -227,8 +269,16 @@ impl Shell {
                 Inner::Leaf(from, to) => {
                     for cell in &self.cells[from..to] {
                         let first = found.len();
-                        View::new(&line, cell, self.rational).meet(found);
-                        if cell.is_cut {
+                        let room = if SEALED { EDGE } else { 0.0 };
+                        View::new(&line, cell, self.rational).meet(found, room);
+                        if self.faces[cell.face as usize].is_turned {
+                            for f in &mut found[first..] {
+                                (f.sign, f.turn) = (-f.sign, -f.turn);
+                            }
+                        }
+                        if SEALED {
+                            self.sort_out(cell, found, first, off);
+                        } else if cell.trimmed == Trimmed::Across {
                             self.trim(found, first);
                         }
                     }
@@ -274,14 +324,13 @@ impl Shell {
     #[inline(always)]
     fn is_shared(&self, a: &Found, b: &Found) -> bool {
         let on_edge = |f: &Found| self.faces[f.face as usize].has_on_edge(f);
-        let alike = a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
-        alike && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+        a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
     }
 
     /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
     /// each other and in which nothing is proven.
     #[inline(always)]
-    fn distinct<'f>(&self, found: &'f mut Vec<Found>) -> &'f [Found] {
+    pub(super) fn distinct<'f>(&self, found: &'f mut Vec<Found>) -> &'f [Found] {
         if found.len() > 1 {
             // Proven ones first.
             found.sort_by_key(|f| f.sign == 0);
@@ -348,9 +397,9 @@ impl Shell {
     }
 }
 
-/// Leaves out cells, from the first of these on, that are cut off, and marks those that a trim passes
-/// through.
-fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize) {
+/// Marks cells, from the first of these on, that are cut off or that a trim passes through. The former
+/// are left out unless they `stay`.
+fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize, stay: bool) {
     let mut number = 0;
     all.retain_mut(|(cell, _)| {
         number += 1;
@@ -358,9 +407,12 @@ fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize) {
             return true;
         }
         let half = cell.width.map(|w| 0.5 * w);
-        let kept = trim.keeps([0, 1].map(|k| cell.from[k] + half[k]), half);
-        cell.is_cut = kept.is_none();
-        kept != Some(false)
+        cell.trimmed = match trim.keeps([0, 1].map(|k| cell.from[k] + half[k]), half) {
+            Some(true) => Trimmed::Not,
+            Some(false) => Trimmed::Off,
+            None => Trimmed::Across,
+        };
+        stay || cell.trimmed != Trimmed::Off
     });
 }
 

@@ -1,7 +1,7 @@
 //! What all surfaces of patches have in common as a [`Surface`](crate::Surface).
 
 use super::shell::Shell;
-use crate::{Need, Root, SurfacePoint};
+use crate::{LocalPoint, Need, Root, Side, Solidity, SurfacePoint};
 
 /// A surface whose crossings are those of its shell.
 pub(super) trait Patches {
@@ -13,6 +13,14 @@ pub(super) trait Patches {
     /// Puts its own texture coordinates, and slopes along them, in the place of the parameters of the
     /// root's face.
     fn map_uv(&self, root: &Root, point: &mut SurfacePoint, need: Need);
+
+    fn solidity(&self) -> Solidity {
+        Solidity::Open
+    }
+
+    fn side(&self, _point: &LocalPoint<'_>) -> Side {
+        Side::Out
+    }
 }
 
 /// Implements [`Surface`](crate::Surface) by [`Patches`].
@@ -44,6 +52,14 @@ macro_rules! surface_of_patches {
                 let mut point = self.shell().point(ray, root);
                 self.map_uv(root, &mut point, need);
                 point
+            }
+
+            fn solidity(&self) -> crate::Solidity {
+                <Self as $crate::patch::surface::Patches>::solidity(self)
+            }
+
+            fn side(&self, point: &crate::LocalPoint<'_>) -> crate::Side {
+                <Self as $crate::patch::surface::Patches>::side(self, point)
             }
 
             fn packet_filter(&self, _part: crate::PartId) -> crate::packet::FilterSource {

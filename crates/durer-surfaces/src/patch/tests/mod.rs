@@ -1,5 +1,6 @@
 //! Tests of patches.
 
+mod sewn;
 mod triangular;
 mod trims;
 mod witness;
@@ -385,7 +386,7 @@ fn round(r: f64, y: f64, w: f64) -> Vec<[f64; 4]> {
     ]
 }
 
-fn sphere() -> Nurbs {
+fn sphere_data() -> NurbsData {
     let h = 0.5_f64.sqrt();
     let rows = [
         round(0.0, -1.0, 1.0),
@@ -394,7 +395,7 @@ fn sphere() -> Nurbs {
         round(1.0, 1.0, h),
         round(0.0, 1.0, 1.0),
     ];
-    Nurbs::new(NurbsData {
+    NurbsData {
         degree: [2, 2],
         size: [9, 5],
         points: rows.concat(),
@@ -403,8 +404,11 @@ fn sphere() -> Nurbs {
             vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0],
         ],
         ..NurbsData::default()
-    })
-    .unwrap()
+    }
+}
+
+fn sphere() -> Nurbs {
+    Nurbs::new(sphere_data()).unwrap()
 }
 
 #[test]

@@ -44,7 +44,7 @@ impl Box2 {
 /// A Bezier curve, with its ends and a bound on its error: the exact curve is within `error` of this
 /// one, along either parameter.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(in crate::patch) struct Piece {
     /// `(u w, v w, w)`.
     points: ArrayVec<[f64; 3], MOST>,
     pub(super) start: [f64; 2],
@@ -65,7 +65,7 @@ impl Piece {
     }
 
     /// The straight line from one point to another.
-    pub(super) fn line(start: [f64; 2], end: [f64; 2]) -> Self {
+    pub(in crate::patch) fn line(start: [f64; 2], end: [f64; 2]) -> Self {
         let points = [start, end].map(|p| [p[0], p[1], 1.0]).into_iter().collect();
         Self { points, start, end, error: 0.0 }
     }
@@ -133,7 +133,7 @@ impl Piece {
     }
 
     /// The point at a parameter from 0 to 1.
-    pub(super) fn at(&self, t: f64) -> [f64; 2] {
+    pub(in crate::patch) fn at(&self, t: f64) -> [f64; 2] {
         let mut points = self.points.clone();
         for level in (1..points.len()).rev() {
             for k in 0..level {
@@ -143,6 +143,34 @@ impl Piece {
             }
         }
         flat(&points[0])
+    }
+
+    /// The parameter at which a function of the point is least, and its value there: of 16 parts, the
+    /// best one is searched by golden sections.
+    pub(in crate::patch) fn nearest(&self, cost: impl Fn([f64; 2]) -> f64) -> (f64, f64) {
+        const PARTS: usize = 16;
+        /// Golden sections: each leaves 0.618 of the width, so these leave 2^-50.
+        const SECTIONS: usize = 72;
+        let at = |k: usize| k as f64 / PARTS as f64;
+        let value = |t: f64| cost(self.at(t));
+        let best = (0..=PARTS).min_by(|a, b| value(at(*a)).total_cmp(&value(at(*b)))).unwrap_or(0);
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(PARTS)));
+        let [mut p, mut q] = [high - golden * (high - low), low + golden * (high - low)];
+        let [mut at_p, mut at_q] = [value(p), value(q)];
+        for _ in 0..SECTIONS {
+            if at_p <= at_q {
+                (high, q, at_q) = (q, p, at_p);
+                p = high - golden * (high - low);
+                at_p = value(p);
+            } else {
+                (low, p, at_p) = (p, q, at_q);
+                q = low + golden * (high - low);
+                at_q = value(q);
+            }
+        }
+        let found = [(at(best), value(at(best))), (p, at_p), (q, at_q)];
+        found.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(found[0])
     }
 }
 

@@ -14,7 +14,7 @@
 //! innermost loop around".
 
 mod check;
-mod curve;
+pub(super) mod curve;
 
 use super::net::Homogeneous;
 use super::nurbs::spans;
@@ -187,6 +187,42 @@ impl Trims {
         check::apart(&rings, &domain)?;
         let outside = check::directions(&rings)?;
         Ok(Self { rings, domain, outside })
+    }
+
+    /// No trims at all.
+    pub(super) fn none([low, high]: [[f64; 2]; 2]) -> Self {
+        Self { rings: vec![], domain: Box2 { low, high }, outside: true }
+    }
+
+    /// The pieces of each loop in order.
+    pub(super) fn loops(&self) -> impl Iterator<Item = &[Piece]> {
+        self.rings.iter().map(|ring| &ring.pieces[..])
+    }
+
+    /// Whether what is in no loop stays.
+    pub(super) fn is_open(&self) -> bool {
+        self.outside
+    }
+
+    /// Whether parameters are beyond the domain by more than a radius.
+    pub(super) fn is_beyond(&self, uv: [f64; 2], radius: [f64; 2]) -> bool {
+        let Box2 { low, high } = self.domain;
+        (0..2).any(|k| uv[k] + radius[k] < low[k] || uv[k] - radius[k] > high[k])
+    }
+
+    /// The distance of parameters from the edge of what stays, where a step `(u, v)` has the squared
+    /// length `a u² + 2 b u v + c v²`.
+    pub(super) fn distance(&self, uv: [f64; 2], [a, b, c]: [f64; 3]) -> f64 {
+        let length = |p: [f64; 2]| {
+            let [u, v] = [p[0] - uv[0], p[1] - uv[1]];
+            a * u * u + 2.0 * b * u * v + c * v * v
+        };
+        let Box2 { low, high } = self.domain;
+        let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+        let border = (0..4).map(|i| Piece::line(corners[i], corners[(i + 1) % 4]));
+        let border: Vec<Piece> = if self.outside { border.collect() } else { vec![] };
+        let pieces = border.iter().chain(self.rings.iter().flat_map(|ring| &ring.pieces));
+        pieces.map(|piece| piece.nearest(&length).1).fold(f64::INFINITY, f64::min).max(0.0).sqrt()
     }
 
     /// Whether parameters within `radius` of a point stay: `None` if some may and some may not.
