@@ -5,9 +5,9 @@ use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
     Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Shape,
-    Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop,
-    Warp,
+    Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, SewnData,
+    Shape, Spline, StraightSweep, Sweep, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch,
+    TrimLoop, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -217,10 +217,14 @@ fn nurbs(
 fn sewn(surfaces: Vec<PyRef<'_, Object>>, seal: f64, closed: bool) -> PyResult<Object> {
     let mut data = SewnData { surfaces: Vec::new(), seal, closed };
     for (i, surface) in surfaces.iter().enumerate() {
-        let Shape::Nurbs(nurbs) = &surface.SHAPE else {
-            return Err(value_error(format!("surfaces: surface {i} is not a Nurbs, as it was made")));
-        };
-        data.surfaces.push((**nurbs).clone());
+        match &surface.0 {
+            SceneObject { shape: Shape::Nurbs(nurbs), placement, .. }
+                if *placement.affine() == Affine::IDENTITY =>
+            {
+                data.surfaces.push((**nurbs).clone());
+            }
+            _ => return Err(value_error(format!("surfaces: surface {i} is not a Nurbs in its own place"))),
+        }
     }
     checked(Shape::Sewn(Arc::new(data)))
 }
@@ -513,6 +517,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(bezier_patch, module)?)?;
     module.add_function(wrap_pyfunction!(triangular_patch, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs, module)?)?;
+    module.add_function(wrap_pyfunction!(sewn, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

@@ -46,6 +46,7 @@ KINDS = [
         ),
         8,
     ),
+    (durer.Sewn([durer.Nurbs([[(-2, -2, 1), (2, -2, 1)], [(-2, 2, 1), (2, 2, 1)]], (1, 1))]), 8),
     (durer.Ovus(1, 0.5), None),
     (durer.SphereSweep([(0, 0, -2, 1), (0, 0, 0, 1)]), 9 - math.sqrt(1 - 0.05)),
     (durer.SphereSweep([(0, 0, -2, 1), (0, 0, -1, 1), (0, 0, 0, 1), (0, 0, 1, 1)], "b"), None),

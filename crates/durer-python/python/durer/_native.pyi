@@ -56,6 +56,7 @@ __all__ = [
     "quadric",
     "read_mesh",
     "scene",
+    "sewn",
     "spans",
     "sphere",
     "sierpinski",
@@ -222,6 +223,7 @@ def nurbs(
     periodic: Sequence[bool],
     trims: Sequence[tuple[str, Sequence[_Numbers], int, _Numbers]],
 ) -> Object: ...
+def sewn(surfaces: Sequence[Object], seal: float, closed: bool) -> Object: ...
 def ovus(bottom: float, top: float) -> Object: ...
 def lemon(
     base: _Numbers, base_radius: float, apex: _Numbers, apex_radius: float, inner_radius: float

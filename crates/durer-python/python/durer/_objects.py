@@ -654,6 +654,21 @@ class Nurbs(Object):
 
 
 @final
+class Sewn(Object):
+    """Several `Nurbs` that share edges, as one object; a solid if it is `closed`: then every edge must have a partner.
+
+    Edges are the same if their control points are. `seal` is how far apart edges may be that belong together, as those of
+    trimmed surfaces are: gaps up to this width of a closed one are closed.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, surfaces: Sequence[Nurbs], seal: float = 0.0, closed: bool = False) -> None:
+        arguments = (tuple(surfaces), number(seal, "seal"), bool(closed))
+        self._set(_native.sewn([surface._native for surface in arguments[0]], *arguments[1:]), arguments)
+
+
+@final
 class Ovus(Object):
     """An egg about the y axis: a sphere about the origin and one about the point `bottom` above it, with these radii."""
 

@@ -6,9 +6,9 @@ use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
-    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sewn, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError, TriangularPatch,
-    superellipsoid,
+    Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sewn, Sphere,
+    SphereSweep, SphereSweepError, SphericalSector, SurfaceOfRevolution, Torus, Triangle, TriangleError,
+    TriangularPatch, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
