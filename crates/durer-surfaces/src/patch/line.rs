@@ -11,6 +11,7 @@
 //! ray within these errors meets it, and neighbours need not agree on any rounding.
 
 use super::cell::{Cell, EDGE, MARGIN};
+use super::exact::Exact;
 use super::net::Homogeneous;
 use super::subdivide;
 use crate::CentredRay;
@@ -24,7 +25,7 @@ const MARGINS: [[f64; 2]; 2] = [[-MARGIN, 1.0 + MARGIN]; 2];
 /// A ray whose largest component of direction is the third.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    axes: [usize; 3],
+    pub(super) axes: [usize; 3],
     o: [f64; 3],
     o_err: [f64; 3],
     d_z: f64,
@@ -170,7 +171,7 @@ impl<'a> View<'a> {
 
     /// The crossings of the line and the cell, also those beyond its edges within `room`.
     #[inline(always)]
-    pub(super) fn meet(&self, out: &mut Vec<Found>, room: f64) {
+    pub(super) fn meet(&self, exact: &Exact<'_>, out: &mut Vec<Found>, room: f64) {
         let middle = self.local(&self.cell.middle);
         match self.limits.content(&middle, 0.5, 0.5 + MARGIN) {
             Content::Nothing => {}
@@ -180,9 +181,9 @@ impl<'a> View<'a> {
                         out.extend(self.found(&zero));
                     }
                 }
-                None => subdivide::meet(self, out),
+                None => subdivide::meet(self, exact, out),
             },
-            Content::Unknown => subdivide::meet(self, out),
+            Content::Unknown => subdivide::meet(self, exact, out),
         }
     }
 
@@ -257,7 +258,7 @@ impl<'a> View<'a> {
 
     /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.
     #[inline(always)]
-    fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
+    pub(super) fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
         let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at| {
             let x = [0, 1].map(|k| f64::mul_add(at[k], width[k], from[k]));
             let [a, b] = self.local(&self.cell.at(self.rational, x)).j;

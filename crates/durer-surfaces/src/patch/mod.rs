@@ -29,6 +29,7 @@
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes")]
 
 mod cell;
+mod exact;
 mod line;
 mod net;
 mod nurbs;

@@ -1,6 +1,7 @@
 //! Patches as one surface: their cells in a tree, and all crossings of a ray, each once.
 
 use super::cell::{Cell, EDGE, Trimmed, cells};
+use super::exact::Exact;
 use super::line::{Found, Line, View};
 use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
@@ -69,6 +70,8 @@ pub(crate) struct Shell {
     pub(super) reach: f64,
     pub(super) rational: bool,
     pub(super) faces: Box<[Face]>,
+    /// The control points of the faces in double-double.
+    nets: Box<[FaceNet]>,
     /// In the order of the tree.
     cells: Box<[Cell]>,
     tree: Tree,
@@ -159,11 +162,11 @@ impl Shell {
         }
         let scale = exponent(reach) + 1;
         let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3].to_f64()));
-        let rational = points().any(|p| p[3] != Dd::from(heaviest));
+        let rational = points().any(|p| p[3] != Dd::ONE);
         // Without weights all are 1.
         let weight_scale = if rational { exponent(heaviest) + 1 } else { 0 };
         let middle = [centre.x, centre.y, centre.z].map(Dd::from);
-        let (mut all, mut faces) = (Vec::new(), Vec::new());
+        let (mut all, mut faces, mut exact) = (Vec::new(), Vec::new(), Vec::new());
         for (face, net) in nets.iter().enumerate() {
             let about = |p: &Homogeneous<Dd>| {
                 let of = |k: usize| (p[k] - middle[k] * p[3]).scale2(-scale - weight_scale);
@@ -177,6 +180,7 @@ impl Shell {
                 cut_off(trim, &mut all, first, seal > 0.0);
             }
             faces.push(Face::new(&net, rational, trim));
+            exact.push(net);
         }
         if all.is_empty() {
             return None;
@@ -194,7 +198,18 @@ impl Shell {
         let bounds =
             bounds.expanded(room).intersection(hull.expanded(room + around.map(|x| scale2(x, scale))));
         let cells = order.iter().map(|&i| all[i as usize].0.clone()).collect();
-        Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree, seal })
+        Some(Self {
+            bounds,
+            centre,
+            scale,
+            reach,
+            rational,
+            faces: faces.into(),
+            nets: exact.into(),
+            cells,
+            tree,
+            seal,
+        })
     }
 
     /// Points of faces that surely stay, with their faces: of a lattice, whose points are on no line that
@@ -251,6 +266,7 @@ impl Shell {
         let (begin, end) = at.window(range);
         let (begin, end) = (begin - ROOM, end + ROOM);
         let line = Line::new(at);
+        let exact = Exact::new(at, &self.nets, line.axes);
         let Lists { nodes, found, off } = lists;
         nodes.clear();
         found.clear();
@@ -270,7 +286,7 @@ impl Shell {
                     for cell in &self.cells[from..to] {
                         let first = found.len();
                         let room = if SEALED { EDGE } else { 0.0 };
-                        View::new(&line, cell, self.rational).meet(found, room);
+                        View::new(&line, cell, self.rational).meet(&exact, found, room);
                         if self.faces[cell.face as usize].is_turned {
                             for f in &mut found[first..] {
                                 (f.sign, f.turn) = (-f.sign, -f.turn);

@@ -34,6 +34,8 @@ impl Tally {
         );
         // Half of the rays aim at edges.
         assert!(*outside * 25 < *roots, "too many roots beside an edge");
+        // Touches aside, double-double decides all of them.
+        assert!(*uncertain * 25 <= *roots, "too many uncertain roots");
         median
     }
 }
@@ -247,6 +249,23 @@ fn a_saddle_is_met_once() {
         assert!(roots[0].lo <= t && t <= roots[0].hi, "{x} {y} {roots:?}");
         assert!(roots[0].hi - roots[0].lo < 64.0 * f64::EPSILON, "{x} {y} {roots:?}");
         assert_eq!(roots[0].sign, -1);
+    }
+}
+
+/// Weights that are all the same change nothing.
+#[test]
+fn equal_weights_are_no_weights() {
+    let mut dice = crate::laws::dice(5, 0);
+    let points = net(&mut dice, [4, 4], false);
+    let heavy: Vec<_> = points.iter().map(|&[x, y, z, _]| [x, y, z, 3.0]).collect();
+    let [plain, heavy] = [&points, &heavy].map(|p| BezierPatch::rational([4, 4], p).unwrap());
+    for _ in 0..50 {
+        let ray = aimed(&mut dice, &plain);
+        let (a, b) = (all_roots(&plain, &ray), all_roots(&heavy, &ray));
+        if a.iter().chain(&b).all(|r| r.kind == RootKind::Simple) {
+            assert_eq!(a.len(), b.len(), "{ray:?}");
+            assert!(a.iter().zip(&b).all(|(a, b)| a.lo <= b.hi && b.lo <= a.hi), "{a:?} {b:?}");
+        }
     }
 }
 
