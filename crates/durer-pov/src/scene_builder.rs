@@ -454,6 +454,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             limits::charge_for_good(patch.points.len() * 32);
             scene::Shape::Patch(Arc::new((**patch).clone()))
         }
+        Shape::TriangularPatch(patch) => {
+            limits::charge_for_good(patch.points.len() * 32);
+            scene::Shape::TriangularPatch(Arc::new((**patch).clone()))
+        }
         Shape::Nurbs(data) => {
             limits::charge_for_good(data.points.len() * 32);
             scene::Shape::Nurbs(Arc::new((**data).clone()))
@@ -463,6 +467,10 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             scene::Shape::Subdivision(Arc::new((**data).clone()))
         }
         Shape::Parametric(it) => scene::Shape::Parametric(Arc::new((**it).clone())),
+        Shape::Sewn(data) => {
+            limits::charge_for_good(data.surfaces.iter().map(|s| s.points.len() * 32).sum());
+            scene::Shape::Sewn(Arc::new((**data).clone()))
+        }
         &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
         &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
             let (base, apex) = (point(base), point(apex));

@@ -203,7 +203,6 @@ fn patches_say_what_is_wrong_with_them() {
             "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 4, 0, 0, 2, 1 }",
             "knots must not fall: knot 4 is 1 after 2",
         ),
-        ("nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { } }", "not supported yet: trim"),
         ("subdivision { }", "this subdivision has no face_indices"),
         ("subdivision { scheme loop }", "not supported yet: scheme loop"),
         ("subdivision { scheme square }", "a scheme is catmull_clark or loop"),
@@ -226,6 +225,23 @@ fn patches_say_what_is_wrong_with_them() {
         (
             "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> } creases { 1, <0, 1, 0> } }",
             "subdivision: the sharpness of crease 0 must be positive, got 0",
+        ),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { } }",
+            "a trim is a linear_spline, a bezier_spline or a nurbs_curve",
+        ),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y trim { linear_spline 3, 0, x, 2 * y } }",
+            "nurbs: trim 1: it leaves the surface at <0, 2>",
+        ),
+        (
+            "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y
+             trim { nurbs_curve degree 2, 3, <0, 0>, <1, 0>, <1, 1> knots 6, 0, 0, 0, 1, 1, 1 } }",
+            "nurbs: trim 1: it is open: a curve ends at <1, 1> and the next begins at <0, 0>",
+        ),
+        (
+            "patch { triangular 10, 0, x, y }",
+            "the points along a side of a triangular patch must be a whole number from 2 to 9, not 10",
         ),
     ] {
         assert_eq!(fault(&text.replace("POINTS", points)).2, wanted, "{text}");

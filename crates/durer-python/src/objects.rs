@@ -6,8 +6,8 @@ use durer::scene::{
     Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs,
     IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
     Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Scheme, Shape, Spline, StraightSweep, SubdivisionData, Sweep, SweepData,
-    SweepSpline, Terrain, TerrainData, Texture, Warp,
+    Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData, Sweep,
+    SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -225,14 +225,51 @@ fn bezier_patch(points: Vec<[f64; 4]>, size: [usize; 2], uv: [[f64; 2]; 4]) -> P
 }
 
 #[pyfunction]
+fn triangular_patch(points: Vec<[f64; 4]>, side: usize, uv: [[f64; 2]; 3]) -> PyResult<Object> {
+    checked(Shape::TriangularPatch(Arc::new(TriangularPatch { side, points, uv })))
+}
+
+#[pyfunction]
 fn nurbs(
     points: Vec<[f64; 4]>,
     size: [usize; 2],
     degree: [usize; 2],
     knots: [Vec<f64>; 2],
     periodic: [bool; 2],
+    trims: Vec<TrimCurve>,
 ) -> PyResult<Object> {
-    checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic })))
+    let trims = trims.into_iter().map(trim_loop).collect::<PyResult<_>>()?;
+    checked(Shape::Nurbs(Arc::new(NurbsData { degree, size, points, knots, periodic, trims })))
+}
+
+/// Surfaces of NURBS objects as one.
+#[pyfunction]
+fn sewn(surfaces: Vec<PyRef<'_, Object>>, seal: f64, closed: bool) -> PyResult<Object> {
+    let mut data = SewnData { surfaces: Vec::new(), seal, closed };
+    for (i, surface) in surfaces.iter().enumerate() {
+        match &surface.0 {
+            SceneObject { shape: Shape::Nurbs(nurbs), placement, .. }
+                if *placement.affine() == Affine::IDENTITY =>
+            {
+                data.surfaces.push((**nurbs).clone());
+            }
+            _ => return Err(value_error(format!("surfaces: surface {i} is not a Nurbs in its own place"))),
+        }
+    }
+    checked(Shape::Sewn(Arc::new(data)))
+}
+
+/// The kind of a trim, its points with their weights, and its degree and knots if it has any.
+type TrimCurve = (String, Vec<V3>, usize, Vec<f64>);
+
+fn trim_loop((kind, points, degree, knots): TrimCurve) -> PyResult<TrimLoop> {
+    let flat = || points.iter().map(|p| [p[0], p[1]]).collect();
+    match kind.as_str() {
+        "polygon" => Ok(TrimLoop::Polygon(flat())),
+        "bezier" => Ok(TrimLoop::Bezier(flat())),
+        "nurbs" => Ok(TrimLoop::Nurbs { degree, points, knots }),
+        other => Err(value_error(format!("trims: a kind is 'polygon', 'bezier' or 'nurbs', got '{other}'"))),
+    }
 }
 
 #[pyfunction]
@@ -558,8 +595,10 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lathe, module)?)?;
     module.add_function(wrap_pyfunction!(sweep, module)?)?;
     module.add_function(wrap_pyfunction!(bezier_patch, module)?)?;
+    module.add_function(wrap_pyfunction!(triangular_patch, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs, module)?)?;
     module.add_function(wrap_pyfunction!(subdivision, module)?)?;
+    module.add_function(wrap_pyfunction!(sewn, module)?)?;
     module.add_function(wrap_pyfunction!(ovus, module)?)?;
     module.add_function(wrap_pyfunction!(lemon, module)?)?;
     module.add_function(wrap_pyfunction!(named_quadric, module)?)?;

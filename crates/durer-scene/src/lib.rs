@@ -53,7 +53,7 @@ pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, R
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch, Prism,
-    QuadricKind, Shape, Spline, StraightSweep, Sweep,
+    QuadricKind, Shape, Spline, StraightSweep, Sweep, TriangularPatch,
 };
 pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;
@@ -64,7 +64,8 @@ pub use durer_surfaces::julia::MOST_ITERATIONS;
 pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
     BlobComponent, BlobShape, Boundary, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData,
-    NurbsError, Scheme, SubdivisionData, SubdivisionError, SweepSpline, Terrain, TerrainData, Warp, tape,
+    NurbsError, Scheme, SewnData, SewnError, SubdivisionData, SubdivisionError, SweepSpline, Terrain,
+    TerrainData, TrimError, TrimLoop, Warp, tape,
 };
 /// A profile swept along any path.
 pub use durer_surfaces::{PathSpline, PathSweep, SweepData, SweepError};

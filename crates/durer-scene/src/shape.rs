@@ -7,7 +7,7 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep, SewnData,
     SubdivisionData, SweepSpline, Terrain, Texture, Warp,
 };
 
@@ -132,12 +132,16 @@ pub enum Shape {
     Lathe(LatheSpline, Arc<[[f64; 2]]>),
     /// A Bezier patch: a surface over the unit square.
     Patch(Arc<Patch>),
+    /// A Bezier patch over a triangle: an open surface.
+    TriangularPatch(Arc<TriangularPatch>),
     /// A surface of non-uniform rational B-splines.
     Nurbs(Arc<NurbsData>),
     /// The limit surface of a mesh of polygons that is refined for ever; a solid if it is closed.
     Subdivision(Arc<SubdivisionData>),
     /// Three functions of two parameters.
     Parametric(Arc<Parametric>),
+    /// NURBS surfaces that share edges: a solid if they are closed.
+    Sewn(Arc<SewnData>),
     /// An egg about the y axis: two spheres with a piece of a spindle between them.
     Ovus {
         /// The radius of the sphere about the origin.
@@ -254,6 +258,18 @@ pub struct Patch {
     pub points: Vec<[f64; 4]>,
     /// Texture coordinates at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
     pub uv: [[f64; 2]; 4],
+}
+
+/// The control net of a Bezier patch over a triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangularPatch {
+    /// How many points a side has: the degree and one.
+    pub side: usize,
+    /// The points row by row, each row one point shorter, and their weights: `[x, y, z, w]`. The
+    /// parameter u runs along a row.
+    pub points: Vec<[f64; 4]>,
+    /// Texture coordinates at (u, v) = (0, 0), (1, 0) and (0, 1).
+    pub uv: [[f64; 2]; 3],
 }
 
 /// An outline in the xz plane, swept from one height to another; closed by flat caps unless the

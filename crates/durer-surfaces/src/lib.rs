@@ -109,8 +109,8 @@ pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::parametric::{Parametric, ParametricError, PathSpline, PathSweep, SweepData, SweepError};
 pub use crate::patch::{
-    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, SubdivisionData,
-    SubdivisionError, SubdivisionSurface,
+    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, Sewn, SewnData, SewnError,
+    SubdivisionData, SubdivisionError, SubdivisionSurface, TriangularPatch, TrimError, TrimLoop,
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

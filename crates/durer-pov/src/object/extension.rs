@@ -45,6 +45,7 @@ pub(crate) enum Word {
     Bilinear,
     Patch,
     Nurbs,
+    Sewn,
     Subdivision,
 }
 
@@ -75,6 +76,7 @@ impl Word {
             "patch" => Self::Patch,
             "nurbs" => Self::Nurbs,
             "subdivision" => Self::Subdivision,
+            "sewn" => Self::Sewn,
             _ => return None,
         })
     }
@@ -143,6 +145,7 @@ impl Parser<'_> {
             Word::Patch => return self.spline_patch(place),
             Word::Nurbs => return self.nurbs(place),
             Word::Subdivision => return self.subdivision(place),
+            Word::Sewn => return self.sewn(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
                 let corner = self.corner()?;

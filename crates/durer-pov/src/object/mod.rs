@@ -110,9 +110,11 @@ pub(crate) enum Shape {
     /// Radii and heights.
     Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
     Patch(Rc<durer_scene::Patch>),
+    TriangularPatch(Rc<durer_scene::TriangularPatch>),
     Nurbs(Rc<durer_scene::NurbsData>),
     Subdivision(Rc<durer_scene::SubdivisionData>),
     Parametric(Rc<durer_scene::Parametric>),
+    Sewn(Rc<durer_scene::SewnData>),
     Ovus {
         bottom: f64,
         top: f64,

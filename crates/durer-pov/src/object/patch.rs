@@ -6,8 +6,9 @@ use std::rc::Rc;
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
+use crate::lexer::Mark;
 use crate::parser::Parser;
-use durer_scene::{NurbsData, Patch};
+use durer_scene::{NurbsData, Patch, SewnData, TriangularPatch, TrimLoop};
 
 /// How the points of a `patch` make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,8 +128,29 @@ impl Parser<'_> {
         self.patch([2, 2], vec![a, b, d, c], uv, place)
     }
 
-    /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`.
+    /// `triangular N, points [uv_vectors three of them]`: N points in the first row, each row one
+    /// shorter.
+    fn triangular_patch(&mut self, place: Place) -> Result<Shape> {
+        self.skip_comma()?;
+        let side = self.whole_from("the points along a side of a triangular patch", 2, 9)?;
+        let mut points = Vec::new();
+        for row in 0..side {
+            points.extend(self.weighted_net([side - row, 1], row)?);
+        }
+        let mut uv = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        self.uv_vectors(&mut uv)?;
+        if points.iter().all(|p| p[..3] == points[0][..3]) {
+            return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
+        }
+        Ok(Shape::TriangularPatch(Rc::new(TriangularPatch { side, points, uv })))
+    }
+
+    /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`, or
+    /// `triangular N, points`.
     pub(super) fn spline_patch(&mut self, place: Place) -> Result<Shape> {
+        if self.small_word("triangular")? {
+            return self.triangular_patch(place);
+        }
         let (basis, name, least) = if self.take_word(Keyword::LinearSpline)? {
             (Basis::Linear, "linear_spline", 2)
         } else if self.take_word(Keyword::BSpline)? {
@@ -151,7 +173,7 @@ impl Parser<'_> {
         for n in &mut size {
             *n = self.whole_from(&format!("the points along a parameter of a {name} patch"), least, most)?;
         }
-        let points = self.weighted_net(size)?;
+        let points = self.weighted_net(size, 0)?;
         let uv = if basis == Basis::Bezier { self.uv_corners()? } else { [[0.0; 2]; 4] };
         match basis {
             Basis::Bezier => self.patch(size, points, uv, place),
@@ -174,8 +196,45 @@ impl Parser<'_> {
         }
     }
 
-    /// `degree DU, DV points NU, NV, points [u_knots ...] [v_knots ...] [periodic u | v | u v]`.
+    /// `degree DU, DV points NU, NV, points [u_knots ...] [v_knots ...] [periodic u | v | u v]
+    /// [trim { loop } ...]`.
     pub(super) fn nurbs(&mut self, place: Place) -> Result<Shape> {
+        let data = self.nurbs_data(place)?;
+        self.checked_nurbs(data, place)
+    }
+
+    /// `nurbs { ... } nurbs { ... } ... [seal TOL] [closed]`.
+    pub(super) fn sewn(&mut self, place: Place) -> Result<Shape> {
+        let mut data = SewnData::default();
+        loop {
+            self.skip_comma()?;
+            self.peek()?;
+            let at = self.here();
+            if self.small_word("nurbs")? {
+                self.expect(Mark::BraceOpen)?;
+                let surface = self.nurbs_data(at)?;
+                surface.check().map_err(|why| Error::invalid(at, why.to_string()))?;
+                self.expect(Mark::BraceClose)?;
+                data.surfaces.push(surface);
+            } else if self.small_word("seal")? {
+                data.seal = self.float()?;
+                if !(data.seal >= 0.0 && data.seal.is_finite()) {
+                    let text = format!("the seal must be finite and not negative, not {}", data.seal);
+                    return Err(Error::invalid(at, text));
+                }
+            } else if self.small_word("closed")? {
+                data.closed = true;
+            } else {
+                break;
+            }
+        }
+        // It is made here, so that an edge without a partner is named where the block is.
+        data.check().map_err(|why| Error::invalid(place, why.to_string()))?;
+        Ok(Shape::Sewn(Rc::new(data)))
+    }
+
+    /// The numbers of a `nurbs`, not yet checked.
+    fn nurbs_data(&mut self, place: Place) -> Result<NurbsData> {
         let mut data = NurbsData::default();
         let (mut has_degree, mut has_points) = (false, false);
         loop {
@@ -191,7 +250,7 @@ impl Parser<'_> {
                 for n in &mut data.size {
                     *n = self.whole_from("the points along a parameter of a nurbs", 2, MOST_POINTS)?;
                 }
-                data.points = self.weighted_net(data.size)?;
+                data.points = self.weighted_net(data.size, 0)?;
                 has_points = true;
             } else if self.small_word("u_knots")? {
                 data.knots[0] = self.knots()?;
@@ -205,7 +264,9 @@ impl Parser<'_> {
                     return Err(Error::invalid(at, text));
                 }
             } else if self.small_word("trim")? {
-                return Err(Error::unsupported(at, "trim"));
+                self.expect(Mark::BraceOpen)?;
+                data.trims.push(self.trim_loop()?);
+                self.expect(Mark::BraceClose)?;
             } else {
                 break;
             }
@@ -214,7 +275,7 @@ impl Parser<'_> {
             let missing = if has_degree { "points NU, NV, ..." } else { "degree DU, DV" };
             return Err(Error::invalid(place, format!("this nurbs lacks `{missing}`")));
         }
-        self.checked_nurbs(data, place)
+        Ok(data)
     }
 
     /// The shape of a surface whose numbers make one.
@@ -224,6 +285,54 @@ impl Parser<'_> {
             return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
         }
         Ok(Shape::Nurbs(Rc::new(data)))
+    }
+
+    /// `linear_spline N, <u, v>, ...`, `bezier_spline N, <u, v>, ...` or `nurbs_curve degree D, N,
+    /// <u, v> or <u, v, w>, ... knots COUNT, ...`.
+    fn trim_loop(&mut self) -> Result<TrimLoop> {
+        self.peek()?;
+        let at = self.here();
+        if self.take_word(Keyword::LinearSpline)? {
+            return Ok(TrimLoop::Polygon(self.plane_points()?));
+        }
+        if self.take_word(Keyword::BezierSpline)? {
+            return Ok(TrimLoop::Bezier(self.plane_points()?));
+        }
+        if !self.small_word("nurbs_curve")? {
+            let text = "a trim is a linear_spline, a bezier_spline or a nurbs_curve";
+            return Err(Error::invalid(at, text));
+        }
+        if !self.small_word("degree")? {
+            return Err(Error::invalid(at, "this nurbs_curve lacks `degree D`"));
+        }
+        let degree = self.whole_from("the degree of a nurbs_curve", 1, 9)?;
+        let count = self.whole_from("the number of points of a nurbs_curve", 2, MOST_POINTS)?;
+        let mut points = Vec::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            self.check_memory(n * 24, at)?;
+            let value = self.expression()?;
+            self.skip_comma()?;
+            let [u, v, w] = value.xyz();
+            points.push([u, v, if value.as_slice().len() > 2 { w } else { 1.0 }]);
+        }
+        let knots = if self.small_word("knots")? { self.knots()? } else { Vec::new() };
+        Ok(TrimLoop::Nurbs { degree, points, knots })
+    }
+
+    /// How many points of the parameters, and these.
+    fn plane_points(&mut self) -> Result<Vec<[f64; 2]>> {
+        let count = self.whole_from("the number of points of a trim", 3, MOST_POINTS)?;
+        let mut points = Vec::new();
+        for n in 0..count {
+            self.peek()?;
+            let at = self.here();
+            self.check_memory(n * 16, at)?;
+            points.push(self.vector2()?);
+            self.skip_comma()?;
+        }
+        Ok(points)
     }
 
     /// How many knots, and these.
@@ -261,8 +370,8 @@ impl Parser<'_> {
         Ok(n as usize)
     }
 
-    /// Points of a net: `<x, y, z>`, or `<x, y, z, w>` with a weight.
-    fn weighted_net(&mut self, [nu, nv]: [usize; 2]) -> Result<Vec<[f64; 4]>> {
+    /// Points of a net, `<x, y, z>`, or `<x, y, z, w>` with a weight; and how many rows were before.
+    fn weighted_net(&mut self, [nu, nv]: [usize; 2], rows: usize) -> Result<Vec<[f64; 4]>> {
         let mut points = Vec::new();
         for n in 0..nu * nv {
             self.peek()?;
@@ -280,7 +389,7 @@ impl Parser<'_> {
                 _ => 1.0,
             };
             if !(weight > 0.0 && weight.is_finite()) {
-                let (row, column) = (n / nu + 1, n % nu + 1);
+                let (row, column) = (rows + n / nu + 1, n % nu + 1);
                 let text =
                     format!("the weight of point {column} of row {row} must be positive, not {weight}");
                 return Err(Error::invalid(at, text));
@@ -306,13 +415,19 @@ impl Parser<'_> {
     /// `uv_vectors` at the four corners, if they come next.
     fn uv_corners(&mut self) -> Result<[[f64; 2]; 4]> {
         let mut uv = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        self.uv_vectors(&mut uv)?;
+        Ok(uv)
+    }
+
+    /// `uv_vectors`, as many as there are, if they come next.
+    fn uv_vectors(&mut self, uv: &mut [[f64; 2]]) -> Result<()> {
         if self.take_word(Keyword::UvVectors)? {
-            for corner in &mut uv {
+            for corner in uv {
                 *corner = self.vector2()?;
                 self.skip_comma()?;
             }
         }
-        Ok(uv)
+        Ok(())
     }
 
     /// The shape of a net.

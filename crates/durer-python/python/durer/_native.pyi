@@ -57,6 +57,7 @@ __all__ = [
     "quadric",
     "read_mesh",
     "scene",
+    "sewn",
     "spans",
     "sphere",
     "sierpinski",
@@ -69,6 +70,7 @@ __all__ = [
     "terrain",
     "torus",
     "triangle",
+    "triangular_patch",
     "union",
     "with_texture",
     "without_caps",
@@ -216,12 +218,14 @@ def sphere_sweep(spheres: Sequence[_Numbers], spline: str) -> Object: ...
 def surface_of_revolution(points: Sequence[_Numbers]) -> Object: ...
 def lathe(points: Sequence[_Numbers], spline: str) -> Object: ...
 def bezier_patch(points: Sequence[_Numbers], size: Sequence[int], uv: Sequence[_Numbers]) -> Object: ...
+def triangular_patch(points: Sequence[_Numbers], side: int, uv: Sequence[_Numbers]) -> Object: ...
 def nurbs(
     points: Sequence[_Numbers],
     size: Sequence[int],
     degree: Sequence[int],
     knots: Sequence[_Numbers],
     periodic: Sequence[bool],
+    trims: Sequence[tuple[str, Sequence[_Numbers], int, _Numbers]],
 ) -> Object: ...
 def subdivision(
     vertices: Sequence[_Numbers],
@@ -233,6 +237,7 @@ def subdivision(
     holes: Sequence[int],
     smooth_boundary: bool,
 ) -> Object: ...
+def sewn(surfaces: Sequence[Object], seal: float, closed: bool) -> Object: ...
 def ovus(bottom: float, top: float) -> Object: ...
 def lemon(
     base: _Numbers, base_radius: float, apex: _Numbers, apex_radius: float, inner_radius: float

@@ -558,6 +558,24 @@ def _flat(net: _Net) -> tuple[tuple[tuple[float, ...], ...], tuple[int, int]]:
     return tuple(point for row in net for point in row), (columns, len(net))
 
 
+_Trim = tuple[str, tuple[tuple[float, ...], ...], int, tuple[float, ...]]
+
+
+def _trim(trim: Any) -> _Trim:
+    """A closed curve in the parameters: its kind, points with weights, degree and knots."""
+    kind, points, degree, knots = "polygon", trim, 0, ()
+    if len(trim) > 0 and isinstance(trim[0], str):
+        kind, points = trim[0], trim[1]
+        degree = int(trim[2]) if len(trim) > 2 else 0
+        knots = tuple(real_array(trim[3], "knots").ravel().tolist()) if len(trim) > 3 else ()
+    rows = real_array(points, "trims")
+    if rows.ndim != 2 or rows.shape[1] not in (2, 3):
+        raise ValueError(f"trims: points of shape (n, 2), or (n, 3) with weights, are needed, got {rows.shape}")
+    if rows.shape[1] == 2:
+        rows = np.concatenate([rows, np.ones((len(rows), 1))], axis=1)
+    return kind, tuple(tuple(row) for row in rows.tolist()), degree, knots
+
+
 @final
 class BezierPatch(Object):
     """The Bezier patch of a net of control points (rows, columns, 3), 2 to 16 of each; u runs along a row, v from row to row.
@@ -577,11 +595,47 @@ class BezierPatch(Object):
 
 
 @final
+class TriangularPatch(Object):
+    """The Bezier patch over a triangle, of degree 1 to 8: rows of control points, each one point shorter than the one before.
+
+    `rows` is a list of rows of points (x, y, z), or (x, y, z, w) with weights: the first row has one point more than the
+    degree, the last has one point; u runs along a row. `uv` has the texture coordinates at (u, v) = (0, 0), (1, 0) and
+    (0, 1). An open surface.
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self, rows: Sequence[npt.ArrayLike], uv: npt.ArrayLike = ((0, 0), (1, 0), (0, 1))
+    ) -> None:
+        triangle = []
+        for number, row in enumerate(rows):
+            points = real_array(row, "rows")
+            if points.ndim != 2 or points.shape[1] not in (3, 4) or len(points) != len(rows) - number:
+                raise ValueError(
+                    f"rows: row {number} needs {len(rows) - number} points of 3 or 4 numbers, got shape {points.shape}"
+                )
+            if points.shape[1] == 3:
+                points = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+            triangle.append(tuple(tuple(point) for point in points.tolist()))
+        corners = _rows(uv, 2, "uv")
+        if len(corners) != 3:
+            raise ValueError(f"uv: 3 rows are needed, got {len(corners)}")
+        points_in_order = tuple(point for row in triangle for point in row)
+        native = _native.triangular_patch(points_in_order, len(triangle), corners)
+        self._set(native, (tuple(triangle), corners))
+
+
+@final
 class Nurbs(Object):
     """A surface of non-uniform rational B-splines: a net of points (rows, columns, 3), or 4 with weights, and degrees 1 to 9.
 
     `knots` are two lists, along u (the columns) and along v; without them they are uniform, with the surface's ends at
     the outer points. What is periodic has one knot more than points, and its points go round. An open surface.
+
+    `trims` are closed curves in (u, v), as the knots count them: what lies to the left of each stays, so an outer loop runs
+    counter-clockwise and a hole clockwise. A trim is an array of points (n, 2), a polygon; or ``("bezier", points)``, four
+    points for each piece; or ``("nurbs", points, degree, knots)`` with points (n, 2), or (n, 3) with weights.
     """
 
     __slots__ = ()
@@ -592,14 +646,31 @@ class Nurbs(Object):
         degree: tuple[int, int],
         knots: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
         periodic: tuple[bool, bool] = (False, False),
+        trims: Sequence[Any] = (),
     ) -> None:
         net = _net(points)
         lists = ((), ()) if knots is None else knots
         u, v = (tuple(real_array(values, "knots").ravel().tolist()) for values in lists)
         degrees, both = (int(degree[0]), int(degree[1])), (u, v)
         closed = (bool(periodic[0]), bool(periodic[1]))
-        native = _native.nurbs(*_flat(net), degrees, both, closed)
-        self._set(native, (net, degrees, both, closed))
+        loops = tuple(_trim(trim) for trim in trims)
+        native = _native.nurbs(*_flat(net), degrees, both, closed, loops)
+        self._set(native, (net, degrees, both, closed, loops) if loops else (net, degrees, both, closed))
+
+
+@final
+class Sewn(Object):
+    """Several `Nurbs` that share edges, as one object; a solid if it is `closed`: then every edge must have a partner.
+
+    Edges are the same if their control points are. `seal` is how far apart edges may be that belong together, as those of
+    trimmed surfaces are: gaps up to this width of a closed one are closed.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, surfaces: Sequence[Nurbs], seal: float = 0.0, closed: bool = False) -> None:
+        arguments = (tuple(surfaces), number(seal, "seal"), bool(closed))
+        self._set(_native.sewn([surface._native for surface in arguments[0]], *arguments[1:]), arguments)
 
 
 @final

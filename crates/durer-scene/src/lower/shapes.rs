@@ -7,8 +7,8 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
     Parallelogram, Parametric, ParametricError, PatchError, Plane, Polygon, PolygonError, Prism, Quadric,
-    Region, Sphere, SphereSweep, SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface,
-    SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    Region, Sewn, Sphere, SphereSweep, SphereSweepError, SphericalSector, SubdivisionError,
+    SubdivisionSurface, SurfaceOfRevolution, Torus, Triangle, TriangleError, TriangularPatch, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};
@@ -137,6 +137,10 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             Err(nothing @ PatchError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?.with_uv(it.uv), map),
         },
+        Shape::TriangularPatch(it) => match TriangularPatch::rational(it.side, &it.points) {
+            Err(nothing @ PatchError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
+            made => add_closed(&mut target, made.map_err(shape_error)?.with_uv(it.uv), map),
+        },
         Shape::Nurbs(data) => match Nurbs::new((**data).clone()) {
             Err(nothing @ NurbsError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
@@ -152,6 +156,9 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
                 Err(nothing @ ParametricError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
                 made => add_closed(&mut target, made.map_err(shape_error)?, map),
             }
+        }
+        Shape::Sewn(data) => {
+            add_closed(&mut target, Sewn::new((**data).clone()).map_err(shape_error)?, map);
         }
         &Shape::Ovus { bottom, top } => {
             turned(SurfaceOfRevolution::ovus(bottom, top).map_err(shape_error)?, open, map, &mut target);
@@ -564,9 +571,11 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
         Shape::Patch(_) => "a patch",
+        Shape::TriangularPatch(_) => "a triangular patch",
         Shape::Nurbs(_) => "a nurbs surface",
         Shape::Subdivision(_) => "a subdivision surface",
         Shape::Parametric(_) => "a parametric",
+        Shape::Sewn(_) => "a sewn surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Named(_) => "a named quadric",

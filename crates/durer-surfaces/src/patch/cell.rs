@@ -5,7 +5,7 @@
 //! *Journal of Graphics Tools* 5 (2000) 27-52. What they test by the angle of normals is here a
 //! bound on `I - Y F'` for a ray along the normal: second derivatives, divided by slopes.
 
-use super::net::{Homogeneous, Net, steepest};
+use super::net::{FaceNet, Homogeneous, half, relative, steepest};
 use durer_math::{Aabb, Isa, Point3, U, Vec3};
 
 /// How far beyond its borders a cell's bounds hold, in widths of the cell.
@@ -21,11 +21,25 @@ const SMALL: f64 = durer_math::scale::pow2(-38);
 /// The most points of a row or a column.
 pub(super) const MOST: usize = 16;
 
+/// How trims pass by a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Trimmed {
+    /// All of it stays.
+    Not,
+    /// They pass through it.
+    Across,
+    /// All of it is cut off.
+    Off,
+}
+
 /// A part of a patch.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     /// The patch.
     pub(super) face: u32,
+    /// Whether only its lower left half is of the patch, which is a triangle.
+    pub(super) is_half: bool,
+    pub(super) trimmed: Trimmed,
     /// The least parameters, in the patch.
     pub(super) from: [f64; 2],
     /// How far the parameters go on from there.
@@ -128,12 +142,13 @@ pub(super) fn point_of(net: &[Homogeneous<f64>], size: [usize; 2], x: [f64; 2]) 
 }
 
 impl Cell {
-    /// The part of a patch in a box of parameters.
+    /// The part of a patch in a box of parameters, and a box that holds it, in units: the convex hull
+    /// of its control points does.
     #[inline(always)]
-    fn new(patch: &Net, rational: bool, face: u32, from: [f64; 2], width: [f64; 2]) -> Self {
-        let size = patch.size;
+    fn new(patch: &FaceNet, rational: bool, face: u32, from: [f64; 2], width: [f64; 2]) -> (Self, Aabb) {
         let to = [from[0] + width[0], from[1] + width[1]];
         let own = patch.part(from, to);
+        let size = own.size;
         let beyond = [0, 1].map(|k| MARGIN * width[k]);
         let wide =
             patch.part([from[0] - beyond[0], from[1] - beyond[1]], [to[0] + beyond[0], to[1] + beyond[1]]);
@@ -147,7 +162,8 @@ impl Cell {
         let reach = most(&net);
         let wide_reach = reach.max(most(&far));
         let most_weight = far.iter().fold(0.0, |m: f64, p| m.max(p[3].abs()));
-        let least_weight = net.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
+        let least = |net: &[Homogeneous<f64>]| net.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
+        let least_weight = least(&net);
         let weights = [most_weight, least_weight * (1.0 - 4.0 * U)];
         if !rational {
             net.iter_mut().for_each(|p| p[3] = 1.0);
@@ -179,8 +195,21 @@ impl Cell {
         // The sum of the |Bernstein polynomials| as far as the cell is evaluated.
         let spread = power(1.0 + 2.0 * EDGE, size[0] + size[1] - 2);
         let e_point = sums(size) * U * spread * reach;
-        Self {
+        // Of a half, the net of the triangle is nearer.
+        let is_half = patch.is_triangle() && to[0] + to[1] > 1.0;
+        let hull = match patch {
+            FaceNet::Triangle(all) if is_half => relative(&all.part(half(from, to)).points, base),
+            _ => net.clone(),
+        };
+        let place = |p: &Homogeneous<f64>| {
+            Point3::new(p[0] / p[3] + base[0], p[1] / p[3] + base[1], p[2] / p[3] + base[2])
+        };
+        let room = 8.0 * U * (1.0 + most(&hull) / least(&hull));
+        let bounds = Aabb::from_points(hull.iter().map(place)).expanded(Vec3::new(room, room, room));
+        let cell = Self {
             face,
+            is_half,
+            trimmed: Trimmed::Not,
             from,
             width,
             base,
@@ -188,13 +217,14 @@ impl Cell {
             first: [bound([1, 0]), bound([0, 1])],
             second: [bound([2, 0]), bound([1, 1]), bound([0, 2])],
             middle,
-            e_net: (U * reach).mul_add(1.0 + 8.0 * U, durer_math::scale::pow2(-90)) * spread,
+            e_net: (U * reach).mul_add(1.0 + 8.0 * U, patch.lost()) * spread,
             e_point,
             e_slope: 2.0 * degrees[0].max(degrees[1]) * e_point,
             weights,
             reach,
             net: net.into(),
-        }
+        };
+        (cell, bounds)
     }
 
     /// The point and its slopes at `x`, in the cell's parameters from 0 to 1.
@@ -205,15 +235,6 @@ impl Cell {
             (out[0][3], out[1][3], out[2][3]) = (1.0, 0.0, 0.0);
         }
         out
-    }
-
-    /// A box that holds the cell, in units: the convex hull of its control points does.
-    pub(super) fn bounds(&self) -> Aabb {
-        let place = |p: &Homogeneous<f64>| {
-            Point3::new(p[0] / p[3] + self.base[0], p[1] / p[3] + self.base[1], p[2] / p[3] + self.base[2])
-        };
-        let room = 8.0 * U * (1.0 + self.reach / self.weights[1]);
-        Aabb::from_points(self.net.iter().map(place)).expanded(Vec3::new(room, room, room))
     }
 
     /// By how much slopes change in the cell, as a part of themselves, along each parameter.
@@ -230,8 +251,8 @@ impl Cell {
     }
 }
 
-/// The cells of a patch.
-pub(super) fn cells(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
+/// The cells of a patch, and boxes that hold them.
+pub(super) fn cells(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(Cell, Aabb)>) {
     Isa::detect().run(
         #[inline(always)]
         || cut_up(patch, rational, face, out),
@@ -239,21 +260,36 @@ pub(super) fn cells(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>)
 }
 
 #[inline(always)]
-fn cut_up(patch: &Net, rational: bool, face: u32, out: &mut Vec<Cell>) {
+fn cut_up(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(Cell, Aabb)>) {
     let mut open = vec![([0.0; 2], [0_u32; 2])];
     while let Some((from, halved)) = open.pop() {
+        if patch.is_triangle() && from[0] + from[1] >= 1.0 {
+            continue;
+        }
         let width = halved.map(|n| durer_math::scale::pow2(-(n as i32)));
-        let cell = Cell::new(patch, rational, face, from, width);
+        let (cell, bounds) = Cell::new(patch, rational, face, from, width);
         let [u, v] = cell.bend();
         let may = [0, 1].map(|k| halved[k] < FINEST);
-        if u + v <= FLAT || may == [false; 2] || (u + v).is_nan() {
-            out.push(cell);
+        let is_flat = u + v <= FLAT || may == [false; 2] || (u + v).is_nan();
+        // Beyond the triangle a weight may not be positive, unless the half is small.
+        let is_light = cell.is_half && cell.weights[1] <= 0.0;
+        if is_flat && !is_light {
+            out.push((cell, bounds));
+            continue;
+        }
+        if patch.is_triangle() {
+            // In four, so that squares on the long side stay in halves.
+            let halved = halved.map(|n| n + 1);
+            let half = 0.5 * width[0];
+            let [x, y] = from;
+            let corners = [[x + half, y + half], [x, y + half], [x + half, y], from];
+            open.extend(corners.map(|from| (from, halved)));
             continue;
         }
         let k = if may == [true; 2] { usize::from(v > u) } else { usize::from(may[1]) };
         // A parameter along which nothing changes is not worth halving.
         if [u, v][k] <= FLAT / 8.0 {
-            out.push(cell);
+            out.push((cell, bounds));
             continue;
         }
         let (mut halved, mut second) = (halved, from);

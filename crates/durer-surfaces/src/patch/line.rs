@@ -11,6 +11,7 @@
 //! ray within these errors meets it, and neighbours need not agree on any rounding.
 
 use super::cell::{Cell, EDGE, MARGIN};
+use super::exact::Exact;
 use super::net::Homogeneous;
 use super::subdivide;
 use crate::CentredRay;
@@ -209,6 +210,16 @@ pub(super) struct Found {
     pub(super) sign: i8,
     /// Where nothing is proven: that sign at some points round about, 0 if they differ.
     pub(super) turn: i8,
+    /// Whether it may be on a trim.
+    pub(super) on_trim: bool,
+}
+
+impl Found {
+    /// Whether it may be in the triangle `u + v <= 1`.
+    #[inline(always)]
+    fn reaches_triangle(&self) -> bool {
+        self.uv[0] + self.uv[1] <= 1.0 + (self.radius[0] + self.radius[1] + U)
+    }
 }
 
 impl<'a> View<'a> {
@@ -279,21 +290,21 @@ impl<'a> View<'a> {
         Local { f, j: [[a[0], b[0]], [a[1], b[1]]] }
     }
 
-    /// The crossings of the line and the cell.
+    /// The crossings of the line and the cell, also those beyond its edges within `room`.
     #[inline(always)]
-    pub(super) fn meet(&self, out: &mut Vec<Found>) {
+    pub(super) fn meet(&self, exact: &Exact<'_>, out: &mut Vec<Found>, room: f64) {
         let middle = self.local(&self.cell.middle);
         match self.limits.content(&middle, 0.5, 0.5 + MARGIN) {
             Content::Nothing => {}
             Content::AtMostOne([du, dv]) => match self.zero([0.5 + du, 0.5 + dv], &self.limits, &MARGINS) {
                 Some(zero) => {
-                    if touches(&zero, [0.0; 2], [1.0; 2]) {
-                        out.push(self.found(&zero));
+                    if touches(&zero, [-room; 2], [2.0f64.mul_add(room, 1.0); 2]) {
+                        out.extend(self.found(&zero));
                     }
                 }
-                None => subdivide::meet(self, out),
+                None => subdivide::meet(self, exact, out),
             },
-            Content::Unknown => subdivide::meet(self, out),
+            Content::Unknown => subdivide::meet(self, exact, out),
         }
     }
 
@@ -316,9 +327,9 @@ impl<'a> View<'a> {
         x.mul_add(self.cell.width[k], self.cell.from[k])
     }
 
-    /// A proven zero as a crossing.
+    /// A proven zero as a crossing, if it may be on the patch.
     #[inline(always)]
-    pub(super) fn found(&self, zero: &Zero) -> Found {
+    pub(super) fn found(&self, zero: &Zero) -> Option<Found> {
         let (cell, z_axis) = (self.cell, self.line.axes[2]);
         let [p, pu, pv] = cell.at(self.rational, zero.x);
         let w = p[3];
@@ -343,7 +354,7 @@ impl<'a> View<'a> {
             + 2.0 * U * (z.abs() + self.o[2].abs() + (p[z_axis] / w).abs());
         let (s, s_err) = self.line.along(z, z_err * ROUNDED);
         let sign = if self.line.d_z < 0.0 { -zero.sign } else { zero.sign };
-        Found {
+        let found = Found {
             face: cell.face,
             uv: [self.in_patch(0, zero.x[0]), self.in_patch(1, zero.x[1])],
             radius: [0, 1].map(|k| (zero.radius[k] * cell.width[k] + U) * ROUNDED),
@@ -352,12 +363,14 @@ impl<'a> View<'a> {
             s_err,
             sign,
             turn: sign,
-        }
+            on_trim: false,
+        };
+        (!cell.is_half || found.reaches_triangle()).then_some(found)
     }
 
     /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.
     #[inline(always)]
-    fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
+    pub(super) fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
         let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at| {
             let x = [0, 1].map(|k| f64::mul_add(at[k], width[k], from[k]));
             let [a, b] = self.local(&self.cell.at(self.rational, x)).j;
@@ -392,6 +405,7 @@ impl<'a> View<'a> {
             s_err,
             sign: 0,
             turn: self.turn(from, width),
+            on_trim: false,
         }
     }
 }

@@ -29,32 +29,54 @@
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes")]
 
 mod cell;
+mod exact;
 pub(crate) mod line;
 mod net;
 mod nurbs;
 mod point;
+mod seal;
+mod seam;
+mod sewn;
 mod shell;
 mod subdivide;
 mod subdivision;
+mod surface;
+mod triangle_net;
+mod triangular;
+mod trim;
 
-use crate::compose::clip::Algebraic;
-use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
-use durer_math::{Aabb, Dyadic, Isa, Point3};
-use net::Net;
+use crate::{Need, Root, SurfacePoint};
+use durer_math::Point3;
+use net::{FaceNet, Net};
 use shell::Shell;
 use std::sync::Arc;
+use surface::{Patches, surface_of_patches};
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
+pub use sewn::{Sewn, SewnData, SewnError};
 pub use subdivision::{Boundary, Scheme, SubdivisionData, SubdivisionError, SubdivisionSurface};
+pub use triangular::TriangularPatch;
+pub use trim::{TrimError, TrimLoop};
 
-/// Why a [`BezierPatch`] cannot exist.
+/// Why a [`BezierPatch`] or a [`TriangularPatch`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PatchError {
     /// Rows or columns have too few or too many points.
     #[error("patch: rows and columns have 2 to 16 points, got {} by {}", .0[0], .0[1])]
     Size([usize; 2]),
+    /// The sides of a triangle have too few or too many points.
+    #[error("patch: a side of a triangle has 2 to 9 points, got {0}")]
+    Side(usize),
+    /// The number of points is not that of a triangle with such sides.
+    #[error("patch: a triangle with {side} points along each side has {needed} points, got {len}")]
+    TriangleCount {
+        /// The points along a side.
+        side: usize,
+        /// How many points that makes.
+        needed: usize,
+        /// How many points there are.
+        len: usize,
+    },
     /// The number of points is not that of a net of this size.
     #[error("patch: a net of {} by {} has {} points, got {len}", size[0], size[1], size[0] * size[1])]
     Count {
@@ -143,7 +165,7 @@ impl BezierPatch {
     /// are not multiplied by the weight.
     pub fn rational(size: [usize; 2], points: &[[f64; 4]]) -> Result<Self, PatchError> {
         check(size, points)?;
-        let shell = Shell::new(&[Net::new(size, points)]).ok_or(PatchError::Nothing)?;
+        let shell = Shell::new(&[FaceNet::Square(Net::new(size, points))]).ok_or(PatchError::Nothing)?;
         Ok(Self { size, points: points.into(), corners: SQUARE, shell: Arc::new(shell) })
     }
 
@@ -164,14 +186,6 @@ impl BezierPatch {
     pub fn points(&self) -> &[[f64; 4]] {
         &self.points
     }
-
-    #[inline(never)]
-    fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        Isa::detect().run(
-            #[inline(always)]
-            || self.shell.roots(ray, sink),
-        );
-    }
 }
 
 /// Texture coordinates that are given at the corners of a patch and bilinear between them, and the
@@ -184,13 +198,7 @@ fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Need) {
         point.uv[k] = low + v * (high - low);
         jacobian[k] = [(b[k] - a[k]) + v * ((c[k] - d[k]) - (b[k] - a[k])), high - low];
     }
-    let [[p, q], [r, s]] = jacobian;
-    let det = p * s - q * r;
-    if need.contains(Need::DERIVATIVES) && det != 0.0 {
-        let (du, dv, by) = (point.dpdu, point.dpdv, 1.0 / det);
-        point.dpdu = (du * s - dv * r) * by;
-        point.dpdv = (dv * p - du * q) * by;
-    }
+    point.change_parameters(jacobian, need);
 }
 
 /// Whether a net is one of a patch.
@@ -201,6 +209,11 @@ fn check(size: [usize; 2], points: &[[f64; 4]]) -> Result<(), PatchError> {
     if points.len() != size[0] * size[1] {
         return Err(PatchError::Count { size, len: points.len() });
     }
+    check_points(points, WEIGHTS)
+}
+
+/// Whether all points can be computed with, and weights differ by no more than a factor.
+fn check_points(points: &[[f64; 4]], factor: f64) -> Result<(), PatchError> {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (i, &[x, y, z, weight]) in points.iter().enumerate() {
         let point = i + 1;
@@ -215,7 +228,7 @@ fn check(size: [usize; 2], points: &[[f64; 4]]) -> Result<(), PatchError> {
         }
         (least, most) = (least.min(weight), most.max(weight));
     }
-    if most / least > WEIGHTS {
+    if most / least > factor {
         return Err(PatchError::Weights(most / least));
     }
     Ok(())
@@ -228,45 +241,22 @@ impl PartialEq for BezierPatch {
     }
 }
 
-impl Surface for BezierPatch {
-    fn name(&self) -> &'static str {
-        "patch"
+impl Patches for BezierPatch {
+    const NAME: &'static str = "patch";
+
+    fn shell(&self) -> &Shell {
+        &self.shell
     }
 
-    fn bounds(&self) -> Aabb {
-        self.shell.bounds
-    }
-
-    #[inline(always)]
-    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        if !ray.passes_by(self.shell.centre, self.shell.reach) {
-            self.all_roots(ray, &mut Forward(sink));
+    fn map_uv(&self, _root: &Root, point: &mut SurfacePoint, need: Need) {
+        if self.corners == SQUARE {
+            return;
         }
-    }
-
-    #[inline(never)]
-    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        let mut point = Isa::detect().run(
-            #[inline(always)]
-            || self.shell.point(ray, root),
-        );
-        if self.corners != SQUARE {
-            map_uv(&self.corners, &mut point, need);
-        }
-        point
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.shell.bounds)
+        map_uv(&self.corners, point, need);
     }
 }
 
-impl Algebraic for BezierPatch {
-    /// Along a ray it has no polynomial of low degree.
-    fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        None
-    }
-}
+surface_of_patches!(BezierPatch);
 
 #[cfg(test)]
 mod tests;

@@ -1,15 +1,74 @@
 //! Control nets in double-double: how a patch is cut into cells before any ray is seen.
 
+use super::cell::power;
+use super::triangle_net::TriangleNet;
 use durer_math::Dd;
 
 /// Coordinates times weight, and the weight.
-pub(super) type Homogeneous<T> = [T; 4];
+pub(crate) type Homogeneous<T> = [T; 4];
 
 /// The control points of a patch or of a part of it: rows along `u`, one after another along `v`.
 #[derive(Clone, Debug)]
-pub(super) struct Net {
-    pub(super) size: [usize; 2],
-    pub(super) points: Vec<Homogeneous<Dd>>,
+pub(crate) struct Net {
+    pub(crate) size: [usize; 2],
+    pub(crate) points: Vec<Homogeneous<Dd>>,
+}
+
+/// A face: the control points of a patch over the unit square, or over the triangle `u, v >= 0`,
+/// `u + v <= 1`.
+#[derive(Clone, Debug)]
+pub(crate) enum FaceNet {
+    Square(Net),
+    Triangle(TriangleNet),
+}
+
+impl FaceNet {
+    /// The control points.
+    pub(super) fn points(&self) -> &[Homogeneous<Dd>] {
+        match self {
+            Self::Square(net) => &net.points,
+            Self::Triangle(net) => &net.points,
+        }
+    }
+
+    /// The face with each control point replaced.
+    pub(super) fn map(&self, f: impl Fn(&Homogeneous<Dd>) -> Homogeneous<Dd>) -> Self {
+        match self {
+            Self::Square(net) => {
+                Self::Square(Net { size: net.size, points: net.points.iter().map(f).collect() })
+            }
+            Self::Triangle(net) => {
+                Self::Triangle(TriangleNet { side: net.side, points: net.points.iter().map(f).collect() })
+            }
+        }
+    }
+
+    pub(super) fn is_triangle(&self) -> bool {
+        matches!(self, Self::Triangle(_))
+    }
+
+    /// The net over a box of parameters, which may reach beyond the patch.
+    #[inline(always)]
+    pub(super) fn part(&self, from: [f64; 2], to: [f64; 2]) -> Net {
+        match self {
+            Self::Square(net) => net.part(from, to),
+            Self::Triangle(net) => net.part(half(from, to)).over_square(),
+        }
+    }
+
+    /// What is lost in double-double, as a part of the size of all: on the way from a triangle to a
+    /// square errors grow by three with each degree.
+    pub(super) fn lost(&self) -> f64 {
+        match self {
+            Self::Square(_) => durer_math::scale::pow2(-90),
+            Self::Triangle(net) => durer_math::scale::pow2(-97) * power(3.0, net.side - 1),
+        }
+    }
+}
+
+/// The corners of the lower left half of a box.
+pub(super) fn half(from: [f64; 2], to: [f64; 2]) -> [[f64; 2]; 3] {
+    [from, [to[0], from[1]], [from[0], to[1]]]
 }
 
 /// `a + t (b - a)`.
@@ -86,12 +145,17 @@ impl Net {
     /// Each point relative to `base`, rounded: coordinates less `base` times the weight.
     #[inline(always)]
     pub(super) fn relative(&self, base: [f64; 3]) -> Vec<Homogeneous<f64>> {
-        let about = |p: &Homogeneous<Dd>| {
-            let of = |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
-            [of(0), of(1), of(2), p[3].to_f64()]
-        };
-        self.points.iter().map(about).collect()
+        relative(&self.points, base)
     }
+}
+
+/// Each point relative to `base`, rounded: coordinates less `base` times the weight.
+pub(super) fn relative(points: &[Homogeneous<Dd>], base: [f64; 3]) -> Vec<Homogeneous<f64>> {
+    let about = |p: &Homogeneous<Dd>| {
+        let of = |k: usize| (p[k] - Dd::from(base[k]) * p[3]).to_f64();
+        [of(0), of(1), of(2), p[3].to_f64()]
+    };
+    points.iter().map(about).collect()
 }
 
 /// The greatest magnitude of the differences of a net, `along` times in each direction; times the

@@ -12,14 +12,13 @@
 //! surfaces", *IEEE Transactions on Visualization and Computer Graphics* 4 (1998) 202-214; L. Piegl,
 //! W. Tiller, *The NURBS Book*, 2nd ed. 1997.
 
-use super::net::{Homogeneous, Net, between};
-use super::shell::Shell;
+use super::net::{FaceNet, Homogeneous, Net, between};
+use super::shell::{FaceTrim, Shell};
+use super::surface::{Patches, surface_of_patches};
+use super::trim::{TrimError, TrimLoop, Trims};
 use super::{LARGEST, WEIGHTS};
-use crate::compose::clip::Algebraic;
-use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
-use durer_math::{Aabb, Dd, Dyadic, Isa};
+use crate::{Need, Root, SurfacePoint};
+use durer_math::Dd;
 use std::sync::Arc;
 
 /// The highest degree.
@@ -40,15 +39,29 @@ pub struct NurbsData {
     pub knots: [Vec<f64>; 2],
     /// Whether points and knots go round.
     pub periodic: [bool; 2],
+    /// Loops that do not cross: what lies to the left of them stays. Empty: all of the surface. A loop
+    /// within another runs the other way round.
+    pub trims: Vec<TrimLoop>,
 }
 
 impl NurbsData {
     /// Whether these numbers make a surface, before it is built. That all points are the same is not
     /// looked for.
     pub fn check(&self) -> Result<(), NurbsError> {
-        full_knots(self, 0)?;
-        full_knots(self, 1)?;
-        check(self)
+        let full = [full_knots(self, 0)?, full_knots(self, 1)?];
+        check(self)?;
+        self.trims(&full).map(|_| ())
+    }
+
+    /// The trims, if there are any.
+    fn trims(&self, full: &[(Vec<f64>, usize); 2]) -> Result<Option<Trims>, NurbsError> {
+        if self.trims.is_empty() {
+            return Ok(None);
+        }
+        let ends = [0, 1].map(|k: usize| [full[k].0[self.degree[k]], full[k].0[full[k].1]]);
+        let domain = [[ends[0][0], ends[1][0]], [ends[0][1], ends[1][1]]];
+        let made = Trims::new(&self.trims, domain);
+        made.map(Some).map_err(|(number, why)| NurbsError::Trim { number, why })
     }
 }
 
@@ -142,7 +155,15 @@ pub enum NurbsError {
     /// The weights differ by more than can be computed with.
     #[error("nurbs: the largest weight is {0} times the least, which is too much")]
     Weights(f64),
-    /// All points are the same.
+    /// A trim cannot be one.
+    #[error("nurbs: trim {number}: {why}")]
+    Trim {
+        /// The trim, from 1.
+        number: usize,
+        /// Why.
+        why: TrimError,
+    },
+    /// All points are the same, or trims leave nothing.
     #[error("nurbs: all its points are the same, so it has no surface")]
     Nothing,
 }
@@ -246,7 +267,11 @@ fn insert(curve: &mut Vec<Homogeneous<Dd>>, knots: &[f64], degree: usize, knot: 
 
 /// The Bezier control points of a curve, span after span, neighbours sharing their ends; and the
 /// knots between which the spans are.
-fn spans(curve: &[Homogeneous<Dd>], knots: &[f64], degree: usize) -> (Vec<Homogeneous<Dd>>, Vec<f64>) {
+pub(super) fn spans(
+    curve: &[Homogeneous<Dd>],
+    knots: &[f64],
+    degree: usize,
+) -> (Vec<Homogeneous<Dd>>, Vec<f64>) {
     let (mut curve, mut knots) = (curve.to_vec(), knots.to_vec());
     let (from, to) = (knots[degree], knots[curve.len()]);
     let mut ends: Vec<f64> = knots.iter().copied().filter(|t| (from..=to).contains(t)).collect();
@@ -264,11 +289,19 @@ fn spans(curve: &[Homogeneous<Dd>], knots: &[f64], degree: usize) -> (Vec<Homoge
     (curve[begin..begin + count].to_vec(), ends)
 }
 
-impl Nurbs {
-    /// The surface of these points and knots.
-    pub fn new(data: NurbsData) -> Result<Self, NurbsError> {
-        let full = [full_knots(&data, 0)?, full_knots(&data, 1)?];
-        check(&data)?;
+/// A surface as Bezier patches: rows along `u`, one after another along `v`.
+pub(super) struct Parts {
+    pub(super) nets: Vec<FaceNet>,
+    /// The knots between which patches are, along `u` and `v`.
+    pub(super) ends: [Vec<f64>; 2],
+    pub(super) trims: Option<Arc<Trims>>,
+}
+
+impl Parts {
+    pub(super) fn new(data: &NurbsData) -> Result<Self, NurbsError> {
+        let full = [full_knots(data, 0)?, full_knots(data, 1)?];
+        check(data)?;
+        let trims = data.trims(&full)?.map(Arc::new);
         let given = Net::new(data.size, &data.points).points;
         let [nu, nv] = data.size;
         // Rows first, then columns.
@@ -289,23 +322,54 @@ impl Nurbs {
             ends[1] = knots;
         }
         let [pu, pv] = data.degree;
-        let (mut nets, mut parts) = (vec![], vec![]);
-        let whole = [0, 1].map(|k: usize| [ends[k][0], ends[k][ends[k].len() - 1] - ends[k][0]]);
+        let mut nets = vec![];
         for b in 0..ends[1].len() - 1 {
             for a in 0..ends[0].len() - 1 {
                 let net = (0..=pv).flat_map(|j| (0..=pu).map(move |i| (a * pu + i, b * pv + j)));
                 let points = net.map(|(i, j)| columns[i][j]).collect();
-                nets.push(Net { size: [pu + 1, pv + 1], points });
-                let part = |k: usize, n: usize| {
-                    let [from, all] = whole[k];
-                    [(ends[k][n] - from) / all, (ends[k][n + 1] - ends[k][n]) / all]
-                };
-                let ([u, du], [v, dv]) = (part(0, a), part(1, b));
-                parts.push([[u, v], [du, dv]]);
+                nets.push(FaceNet::Square(Net { size: [pu + 1, pv + 1], points }));
             }
         }
-        let shell = Shell::new(&nets).ok_or(NurbsError::Nothing)?;
-        Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: parts.into() })
+        Ok(Self { nets, ends, trims })
+    }
+
+    /// How many patches there are along `u` and along `v`.
+    pub(super) fn grid(&self) -> [usize; 2] {
+        [0, 1].map(|k: usize| self.ends[k].len() - 1)
+    }
+
+    /// The least parameters of a patch and how far they go on, as the knots count.
+    pub(super) fn span(&self, face: usize) -> [[f64; 2]; 2] {
+        let at = [face % self.grid()[0], face / self.grid()[0]];
+        let ends = [0, 1].map(|k: usize| [self.ends[k][at[k]], self.ends[k][at[k] + 1]]);
+        [ends.map(|[from, _]| from), ends.map(|[from, to]| to - from)]
+    }
+
+    /// The same as parts of the whole.
+    pub(super) fn part(&self, face: usize) -> [[f64; 2]; 2] {
+        let [from, width] = self.span(face);
+        let whole = [0, 1].map(|k: usize| [self.ends[k][0], self.ends[k][self.ends[k].len() - 1]]);
+        let all = whole.map(|[a, b]| b - a);
+        [[0, 1].map(|k: usize| (from[k] - whole[k][0]) / all[k]), [0, 1].map(|k: usize| width[k] / all[k])]
+    }
+
+    /// The least and the greatest parameters.
+    pub(super) fn domain(&self) -> [[f64; 2]; 2] {
+        [[0, 1].map(|k: usize| self.ends[k][0]), [0, 1].map(|k: usize| self.ends[k][self.ends[k].len() - 1])]
+    }
+}
+
+impl Nurbs {
+    /// The surface of these points and knots.
+    pub fn new(data: NurbsData) -> Result<Self, NurbsError> {
+        let parts = Parts::new(&data)?;
+        let trim = |face: usize| {
+            let [from, width] = parts.span(face);
+            parts.trims.clone().map(|trims| FaceTrim { trims, from, width })
+        };
+        let shell = Shell::trimmed(&parts.nets, trim, 0.0).ok_or(NurbsError::Nothing)?;
+        let spans = (0..parts.nets.len()).map(|face| parts.part(face)).collect();
+        Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans })
     }
 
     /// What it was made from.
@@ -316,14 +380,6 @@ impl Nurbs {
     /// How many Bezier patches it has.
     pub fn patches(&self) -> usize {
         self.spans.len()
-    }
-
-    #[inline(never)]
-    fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        Isa::detect().run(
-            #[inline(always)]
-            || self.shell.roots(ray, sink),
-        );
     }
 }
 
@@ -357,44 +413,20 @@ impl PartialEq for Nurbs {
     }
 }
 
-impl Surface for Nurbs {
-    fn name(&self) -> &'static str {
-        "NURBS surface"
-    }
+impl Patches for Nurbs {
+    const NAME: &'static str = "NURBS surface";
 
-    fn bounds(&self) -> Aabb {
-        self.shell.bounds
-    }
-
-    #[inline(always)]
-    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        if !ray.passes_by(self.shell.centre, self.shell.reach) {
-            self.all_roots(ray, &mut Forward(sink));
-        }
+    fn shell(&self) -> &Shell {
+        &self.shell
     }
 
     /// Texture coordinates: the parameters, from 0 to 1 over the whole surface.
-    #[inline(never)]
-    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, _need: Need) -> SurfacePoint {
-        let mut point = Isa::detect().run(
-            #[inline(always)]
-            || self.shell.point(ray, root),
-        );
+    fn map_uv(&self, root: &Root, point: &mut SurfacePoint, _need: Need) {
         if let Some([from, width]) = self.spans.get(root.face as usize) {
             point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
             (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
         }
-        point
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.shell.bounds)
     }
 }
 
-impl Algebraic for Nurbs {
-    /// Along a ray it has no polynomial of low degree.
-    fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        None
-    }
-}
+surface_of_patches!(Nurbs);

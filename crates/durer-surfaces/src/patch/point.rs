@@ -4,9 +4,9 @@ use super::cell::{MOST, basis, sums};
 use super::net::Homogeneous;
 use super::shell::{Face, Shell};
 use crate::point::least_step;
-use crate::{LocalRay, Root, SurfacePoint};
+use crate::{LocalRay, Need, Root, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Point3, U, Vec3};
+use durer_math::{Isa, Point3, U, Vec3};
 
 /// Covers results below the normal range, in units.
 const TINY: f64 = durer_math::scale::pow2(-500);
@@ -103,7 +103,8 @@ impl Face {
     /// patch is the direction of its own derivative, unless that vanishes too.
     #[inline(always)]
     pub(super) fn normal(&self, uv: [f64; 2], jet: &Jet) -> Option<(Vec3, Jet)> {
-        let inward = [0.5 - uv[0], 0.5 - uv[1]];
+        let middle = self.middle();
+        let inward = [middle[0] - uv[0], middle[1] - uv[1]];
         let unit = |v: Vec3| Some(v * (1.0 / v.length())).filter(|n| n.is_finite() && *n != Vec3::ZERO);
         let beside = self.jet([ASIDE * inward[0] + uv[0], ASIDE * inward[1] + uv[1]]);
         let most = jet.pu.max_abs().max(beside.pu.max_abs()) * jet.pv.max_abs().max(beside.pv.max_abs());
@@ -209,26 +210,37 @@ pub(super) fn located(
 
 impl Shell {
     /// The point of a root: with its bounds and its normal, and slopes along the parameters.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.point_here(ray, root),
+        )
+    }
+
+    #[inline(always)]
+    fn point_here(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
         let Some(face) = self.faces.get(root.face as usize) else {
             return SurfacePoint::unknown(self.centre);
         };
         let jet = face.jet(root.tag);
         // The evaluation, and the rounding of the control points.
-        let (light, size) = self.lightest(face);
-        let eta = (2.0 * sums(face.size) + 8.0) * U * size / light;
-        located((self.centre, self.scale), (ray, root), &jet, face.normal(root.tag, &jet), eta)
+        let eta = (2.0 * sums(face.size) + 8.0) * U * face.largest / face.lightest;
+        let normal = face.normal(root.tag, &jet);
+        let normal = normal.map(|(n, near)| (if face.is_turned { -n } else { n }, near));
+        located((self.centre, self.scale), (ray, root), &jet, normal, eta)
     }
+}
 
-    /// The least weight of a patch, and its largest coordinate in units, each at least 1 for the
-    /// sake of the other.
-    fn lightest(&self, face: &Face) -> (f64, f64) {
-        if !self.rational {
-            return (1.0, 1.0);
+impl SurfacePoint {
+    /// Puts slopes along other coordinates in the place of those along the parameters, with the
+    /// slopes of these coordinates along the parameters.
+    pub(super) fn change_parameters(&mut self, [[p, q], [r, s]]: [[f64; 2]; 2], need: Need) {
+        let det = p * s - q * r;
+        if need.contains(Need::DERIVATIVES) && det != 0.0 {
+            let (du, dv, by) = (self.dpdu, self.dpdv, 1.0 / det);
+            self.dpdu = (du * s - dv * r) * by;
+            self.dpdv = (dv * p - du * q) * by;
         }
-        let heavy = face.net.iter().fold(0.0, |m: f64, p| m.max(p[3]));
-        let light = face.net.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
-        (light, 2.0 * heavy)
     }
 }

@@ -1,14 +1,18 @@
 //! Patches as one surface: their cells in a tree, and all crossings of a ray, each once.
 
-use super::cell::{Cell, cells};
+use super::cell::{Cell, EDGE, Trimmed, cells};
+use super::exact::Exact;
 use super::line::{Found, Line, View};
-use super::net::{Homogeneous, Net};
+use super::net::{FaceNet, Homogeneous, relative};
+use super::trim::Trims;
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
+use crate::roots::two_unknowns::ROUNDED;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Dd, Point3, U, Vec3};
+use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
+use std::sync::Arc;
 
 /// Cells farther than this from the ray's range, in units, are not looked at: far more than any
 /// bracket of a proven crossing is wide.
@@ -16,14 +20,49 @@ pub(super) const ROOM: f64 = 1.0 / 1024.0;
 
 /// A patch as it is resolved: its control points in units, and the patch's own rounding of them.
 #[derive(Clone, Debug)]
-pub(super) struct Face {
+pub(crate) struct Face {
     pub(super) size: [usize; 2],
+    /// Over the square, also of a triangle.
     pub(super) net: Box<[Homogeneous<f64>]>,
+    pub(super) is_triangle: bool,
+    /// The least weight, and the largest number of the net; with weights twice that.
+    pub(super) lightest: f64,
+    pub(super) largest: f64,
+    pub(super) trim: Option<FaceTrim>,
+    /// Whether the normal points the other way, out of a solid.
+    pub(super) is_turned: bool,
+}
+
+/// The trims of a face, and the parameters that they count by: where the face's begin and how far they
+/// go on.
+#[derive(Clone, Debug)]
+pub(super) struct FaceTrim {
+    pub(super) trims: Arc<Trims>,
+    pub(super) from: [f64; 2],
+    pub(super) width: [f64; 2],
+}
+
+impl FaceTrim {
+    /// Whether parameters of the face within a distance stay.
+    fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
+        let (at, off) = self.as_knots(uv, radius);
+        self.trims.keeps(at, off)
+    }
+
+    /// Parameters and their errors, as the knots count.
+    pub(super) fn as_knots(&self, uv: [f64; 2], radius: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+        let at = [0, 1].map(|k| f64::mul_add(self.width[k], uv[k], self.from[k]));
+        let off = [0, 1].map(|k| {
+            let rounding = 4.0 * U * (self.from[k].abs() + self.width[k]);
+            (self.width[k] * radius[k] + rounding) * ROUNDED
+        });
+        (at, off)
+    }
 }
 
 /// Patches in units about a common centre.
 #[derive(Clone, Debug)]
-pub(super) struct Shell {
+pub(crate) struct Shell {
     pub(super) bounds: Aabb,
     pub(super) centre: Point3,
     pub(super) scale: i32,
@@ -31,27 +70,86 @@ pub(super) struct Shell {
     pub(super) reach: f64,
     pub(super) rational: bool,
     pub(super) faces: Box<[Face]>,
+    /// The control points of the faces in double-double.
+    nets: Box<[FaceNet]>,
     /// In the order of the tree.
     cells: Box<[Cell]>,
     tree: Tree,
+    /// Gaps between faces up to this wide are closed, in units; 0: none are looked for.
+    pub(super) seal: f64,
 }
 
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
-struct Lists {
-    nodes: Vec<u32>,
-    found: Vec<Found>,
+pub(super) struct Lists {
+    pub(super) nodes: Vec<u32>,
+    pub(super) found: Vec<Found>,
+    /// Crossings off their face, within the seal of its edge.
+    pub(super) off: Vec<Found>,
 }
 
 thread_local! {
     static LISTS: Slot<Lists> = Slot::default();
 }
 
+impl Face {
+    fn new(net: &FaceNet, rational: bool, trim: Option<FaceTrim>) -> Self {
+        let own = relative(net.points(), [0.0; 3]);
+        let square = net.part([0.0; 2], [1.0; 2]);
+        let points = square.relative([0.0; 3]);
+        let (mut lightest, mut largest) = (1.0, 1.0);
+        if rational {
+            lightest = own.iter().fold(f64::INFINITY, |m: f64, p| m.min(p[3]));
+            largest = 2.0 * points.iter().fold(0.0, |m: f64, p| m.max(p[3].abs()));
+        }
+        if net.is_triangle() {
+            largest = points.iter().flatten().fold(largest, |m: f64, x| m.max(x.abs()));
+        }
+        let is_triangle = net.is_triangle();
+        let net = points.into();
+        Self { size: square.size, net, is_triangle, lightest, largest, trim, is_turned: false }
+    }
+
+    /// A point in the middle of the parameters.
+    pub(super) fn middle(&self) -> [f64; 2] {
+        [if self.is_triangle { 1.0 / 3.0 } else { 0.5 }; 2]
+    }
+
+    /// Parameters moved into the patch.
+    #[inline(always)]
+    fn clamped(&self, uv: [f64; 2]) -> [f64; 2] {
+        let [u, v] = uv.map(|x| x.clamp(0.0, 1.0));
+        if self.is_triangle && u + v > 1.0 {
+            let over = 0.5 * (u + v - 1.0);
+            return [(u - over).max(0.0), (v - over).max(0.0)];
+        }
+        [u, v]
+    }
+
+    /// Whether a crossing may be on an edge.
+    #[inline(always)]
+    fn has_on_edge(&self, f: &Found) -> bool {
+        (0..2).any(|k| f.uv[k] <= f.radius[k] || !self.is_triangle && f.uv[k] + f.radius[k] >= 1.0)
+            || f.on_trim
+            || self.is_triangle && f.uv[0] + f.uv[1] + f.radius[0] + f.radius[1] >= 1.0
+    }
+}
+
 impl Shell {
     /// The shell of nets whose points are finite and whose weights are positive; `None` if all points
     /// are the same.
-    pub(super) fn new(nets: &[Net]) -> Option<Self> {
-        let points = || nets.iter().flat_map(|net| &net.points);
+    pub(crate) fn new(nets: &[FaceNet]) -> Option<Self> {
+        Self::trimmed(nets, |_| None, 0.0)
+    }
+
+    /// The shell of nets, each with its trims, whose gaps up to `seal` are closed; `None` also if
+    /// nothing is left of them.
+    pub(super) fn trimmed(
+        nets: &[FaceNet],
+        trim: impl Fn(usize) -> Option<FaceTrim>,
+        seal: f64,
+    ) -> Option<Self> {
+        let points = || nets.iter().flat_map(FaceNet::points);
         let place = |p: &Homogeneous<Dd>| {
             let w = p[3].to_f64();
             Point3::new(p[0].to_f64() / w, p[1].to_f64() / w, p[2].to_f64() / w)
@@ -64,21 +162,32 @@ impl Shell {
         }
         let scale = exponent(reach) + 1;
         let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3].to_f64()));
-        let rational = points().any(|p| p[3] != Dd::from(heaviest));
+        let rational = points().any(|p| p[3] != Dd::ONE);
         // Without weights all are 1.
         let weight_scale = if rational { exponent(heaviest) + 1 } else { 0 };
         let middle = [centre.x, centre.y, centre.z].map(Dd::from);
-        let (mut all, mut faces) = (Vec::new(), Vec::new());
+        let (mut all, mut faces, mut exact) = (Vec::new(), Vec::new(), Vec::new());
         for (face, net) in nets.iter().enumerate() {
             let about = |p: &Homogeneous<Dd>| {
                 let of = |k: usize| (p[k] - middle[k] * p[3]).scale2(-scale - weight_scale);
                 [of(0), of(1), of(2), p[3].scale2(-weight_scale)]
             };
-            let net = Net { size: net.size, points: net.points.iter().map(about).collect() };
-            faces.push(Face { size: net.size, net: net.relative([0.0; 3]).into() });
+            let net = net.map(about);
+            let first = all.len();
             cells(&net, rational, face as u32, &mut all);
+            let trim = trim(face);
+            if let Some(trim) = &trim {
+                cut_off(trim, &mut all, first, seal > 0.0);
+            }
+            faces.push(Face::new(&net, rational, trim));
+            exact.push(net);
         }
-        let boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let seal = scale2(seal, -scale);
+        let around = Vec3::new(seal, seal, seal);
+        let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| bounds.expanded(around)).collect();
         let (tree, order) = Tree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
@@ -86,22 +195,62 @@ impl Shell {
         let units = units.expanded(room);
         let bounds = Aabb::new(back(units.min), back(units.max));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude());
-        let bounds = bounds.expanded(room).intersection(hull.expanded(room));
-        let cells = order.iter().map(|&i| all[i as usize].clone()).collect();
-        Some(Self { bounds, centre, scale, reach, rational, faces: faces.into(), cells, tree })
+        let bounds =
+            bounds.expanded(room).intersection(hull.expanded(room + around.map(|x| scale2(x, scale))));
+        let cells = order.iter().map(|&i| all[i as usize].0.clone()).collect();
+        Some(Self {
+            bounds,
+            centre,
+            scale,
+            reach,
+            rational,
+            faces: faces.into(),
+            nets: exact.into(),
+            cells,
+            tree,
+            seal,
+        })
+    }
+
+    /// Points of faces that surely stay, with their faces: of a lattice, whose points are on no line that
+    /// a face is likely to be symmetric about.
+    pub(super) fn kept_points(&self) -> impl Iterator<Item = (usize, Point3)> + '_ {
+        const LATTICE: usize = 7;
+        let at = |k: usize| (k as f64 + 0.37) / LATTICE as f64;
+        let uvs = move || (0..LATTICE * LATTICE).map(move |k| [at(k / LATTICE), at(k % LATTICE)]);
+        self.faces.iter().enumerate().flat_map(move |(number, face)| {
+            let stays = |uv: &[f64; 2]| face.trim.as_ref().is_none_or(|t| t.keeps(*uv, [U; 2]) == Some(true));
+            uvs()
+                .filter(stays)
+                .take(4)
+                .map(move |uv| (number, self.centre + face.jet(uv).p.map(|x| scale2(x, self.scale))))
+        })
     }
 
     /// Passes all crossings to `sink`, ascending.
+    #[inline(never)]
+    pub(crate) fn all_roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.roots(ray, sink),
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
+    fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
-        self.meet(&at, &mut lists, sink.limit());
+        if self.seal > 0.0 {
+            self.meet_sealed(&at, &mut lists);
+        } else {
+            self.meet::<false>(&at, &mut lists, (ray.t_min, ray.t_max.min(sink.limit())));
+        }
         if !lists.found.is_empty() {
-            let found = distinct(&mut lists.found);
+            let found = self.distinct(&mut lists.found);
             let mut roots = Sorted::new();
             for crossing in found {
-                if let Some(root) = root(&at, crossing) {
+                let tag = self.faces[crossing.face as usize].clamped(crossing.uv);
+                if let Some(root) = root(&at, crossing, tag) {
                     roots.push(root);
                 }
             }
@@ -110,16 +259,19 @@ impl Shell {
         LISTS.set(lists);
     }
 
+    /// Crossings in a range, not yet told apart: of what stays of the faces and, if they are `SEALED`,
+    /// of what is off them but within the seal.
     #[inline(always)]
-    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, limit: f64) {
+    pub(super) fn meet<const SEALED: bool>(&self, at: &CentredRay<'_>, lists: &mut Lists, range: (f64, f64)) {
         let along = Along::new(at);
-        let ray = at.local();
-        let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
+        let (begin, end) = at.window(range);
         let (begin, end) = (begin - ROOM, end + ROOM);
         let line = Line::new(at);
-        let Lists { nodes, found } = lists;
+        let exact = Exact::new(at, &self.nets, line.axes);
+        let Lists { nodes, found, off } = lists;
         nodes.clear();
         found.clear();
+        off.clear();
         nodes.push(0);
         while let Some(node) = nodes.pop() {
             let Some((near, far)) = self.tree.entry(node, &along) else { continue };
@@ -133,7 +285,19 @@ impl Shell {
                 }
                 Inner::Leaf(from, to) => {
                     for cell in &self.cells[from..to] {
-                        View::new(&line, cell, self.rational).meet(found);
+                        let first = found.len();
+                        let room = if SEALED { EDGE } else { 0.0 };
+                        View::new(&line, cell, self.rational).meet(&exact, found, room);
+                        if self.faces[cell.face as usize].is_turned {
+                            for f in &mut found[first..] {
+                                (f.sign, f.turn) = (-f.sign, -f.turn);
+                            }
+                        }
+                        if SEALED {
+                            self.sort_out(cell, found, first, off);
+                        } else if cell.trimmed == Trimmed::Across {
+                            self.trim(found, first);
+                        }
                     }
                 }
             }
@@ -153,54 +317,92 @@ pub(super) fn overlap(a: &Found, b: &Found) -> bool {
     (0..2).all(|k| (a.uv[k] - b.uv[k]).abs() <= a.radius[k] + b.radius[k])
 }
 
-/// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
-/// the same place of the line, in the same direction.
-#[inline(always)]
-fn is_shared(a: &Found, b: &Found) -> bool {
-    let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
-    let alike = a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
-    alike && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
-}
-
-/// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
-/// each other and in which nothing is proven.
-#[inline(always)]
-fn distinct(found: &mut Vec<Found>) -> &[Found] {
-    if found.len() > 1 {
-        // Proven ones first.
-        found.sort_by_key(|f| f.sign == 0);
-        let mut kept = 0;
-        for i in 0..found.len() {
-            let new = found[i];
-            let same = |old: &Found| {
-                if old.face == new.face {
-                    is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
-                } else {
-                    is_shared(&new, old)
-                }
-            };
-            match found[..kept].iter().position(same) {
-                Some(k) => {
-                    let old = &mut found[k];
-                    let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
-                    if old.sign == 0 || !known {
-                        // Nothing says whether that is one crossing or two.
-                        *old = joined(old, &new);
-                    } else if new.sign != 0 && new.s_err < old.s_err {
-                        // Of two proofs the sharper one is kept.
-                        *old = new;
-                    }
-                }
-                None => {
-                    found[kept] = new;
-                    kept += 1;
-                }
+impl Shell {
+    /// Leaves out crossings, from the first of these on, that are surely cut off. What may be is an
+    /// uncertain one.
+    fn trim(&self, found: &mut Vec<Found>, first: usize) {
+        let mut kept = first;
+        for i in first..found.len() {
+            let mut f = found[i];
+            let trim = self.faces[f.face as usize].trim.as_ref();
+            match trim.map_or(Some(true), |trim| trim.keeps(f.uv, f.radius)) {
+                Some(false) => continue,
+                Some(true) => {}
+                None => (f.on_trim, f.sign, f.alone) = (true, 0, [0.0; 2]),
             }
+            found[kept] = f;
+            kept += 1;
         }
         found.truncate(kept);
-        join_all(found);
     }
-    found
+
+    /// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
+    /// the same place of the line, in the same direction.
+    #[inline(always)]
+    fn is_shared(&self, a: &Found, b: &Found) -> bool {
+        let on_edge = |f: &Found| self.faces[f.face as usize].has_on_edge(f);
+        a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+    }
+
+    /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
+    /// each other and in which nothing is proven.
+    #[inline(always)]
+    pub(super) fn distinct<'f>(&self, found: &'f mut Vec<Found>) -> &'f [Found] {
+        if found.len() > 1 {
+            // Proven ones first.
+            found.sort_by_key(|f| f.sign == 0);
+            let mut kept = 0;
+            for i in 0..found.len() {
+                let new = found[i];
+                let same = |old: &Found| {
+                    if old.face == new.face {
+                        is_held(&new, old) || is_held(old, &new) || overlap(&new, old)
+                    } else {
+                        self.is_shared(&new, old)
+                    }
+                };
+                match found[..kept].iter().position(same) {
+                    Some(k) => {
+                        let old = &mut found[k];
+                        let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
+                        if old.sign == 0 || !known {
+                            // Nothing says whether that is one crossing or two.
+                            *old = joined(old, &new);
+                        } else if new.sign != 0 && new.s_err < old.s_err {
+                            // Of two proofs the sharper one is kept.
+                            *old = new;
+                        }
+                    }
+                    None => {
+                        found[kept] = new;
+                        kept += 1;
+                    }
+                }
+            }
+            found.truncate(kept);
+            join_all(found);
+        }
+        found
+    }
+}
+
+/// Marks cells, from the first of these on, that are cut off or that a trim passes through. The former
+/// are left out unless they `stay`.
+fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize, stay: bool) {
+    let mut number = 0;
+    all.retain_mut(|(cell, _)| {
+        number += 1;
+        if number <= first {
+            return true;
+        }
+        let half = cell.width.map(|w| 0.5 * w);
+        cell.trimmed = match trim.keeps([0, 1].map(|k| cell.from[k] + half[k]), half) {
+            Some(true) => Trimmed::Not,
+            Some(false) => Trimmed::Off,
+            None => Trimmed::Across,
+        };
+        stay || cell.trimmed != Trimmed::Off
+    });
 }
 
 /// Joins unproven boxes until none touches another.
@@ -239,12 +441,14 @@ pub(super) fn joined(a: &Found, b: &Found) -> Found {
     (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
     (out.sign, out.alone) = (0, [0.0; 2]);
     out.turn = if a.turn == b.turn { a.turn } else { 0 };
+    out.on_trim = a.on_trim || b.on_trim;
     out
 }
 
-/// A crossing in the caller's parameter; `None` if it is not in the ray's range.
+/// A crossing in the caller's parameter, with its parameters on the surface; `None` if it is not in
+/// the ray's range.
 #[inline(always)]
-pub(super) fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
+pub(super) fn root(at: &CentredRay<'_>, found: &Found, tag: [f64; 2]) -> Option<Root> {
     let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
     match at.admits(lo, hi) {
         Some(false) => return None,
@@ -258,14 +462,5 @@ pub(super) fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
         (0, turn) => (RootKind::Cluster, turn),
         (sign, _) => (RootKind::Simple, sign),
     };
-    Some(Root {
-        t: at.t(found.s).max(lo).min(hi),
-        lo,
-        hi,
-        s: found.s,
-        tag: found.uv.map(|x| x.clamp(0.0, 1.0)),
-        face: found.face,
-        sign,
-        kind,
-    })
+    Some(Root { t: at.t(found.s).max(lo).min(hi), lo, hi, s: found.s, tag, face: found.face, sign, kind })
 }

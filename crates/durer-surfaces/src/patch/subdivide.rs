@@ -9,9 +9,11 @@
 //! parts is recognised later, because each has a proof that it is alone in a wider box.
 
 use super::cell::{MARGIN, basis, power};
+use super::exact::Exact;
 use super::line::{Found, View, touches};
-use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED};
-use durer_math::{Isa, U};
+use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
+use core::ops::{Add, Mul, Sub};
+use durer_math::{Dd, Isa, U};
 
 /// The most parts of a cell that one ray looks at; the rest stays unresolved. A tangent needs a few
 /// hundred.
@@ -21,9 +23,40 @@ const NOISE: f64 = 8.0;
 /// The least width of a part, in parameters of its cell.
 const LEAST: f64 = durer_math::scale::pow2(-48);
 
+/// No more parts of a cell than this are looked at in double-double for one ray.
+const MOST_DOUBLE: usize = 64;
+/// A touch leaves no more parts open than meet in one point, twice. If there are more, a curve of the
+/// patch is on the ray, a collapsed edge say, and nothing is gained in double-double.
+const MOST_OPEN: usize = 8;
+
+/// What control values are computed in: f64, and double-double where that does not tell.
+trait Word: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> {
+    /// Bounds the relative error of a sum and of a product.
+    const UNIT: f64;
+
+    fn value(self) -> f64;
+}
+
+impl Word for f64 {
+    const UNIT: f64 = U;
+
+    fn value(self) -> f64 {
+        self
+    }
+}
+
+/// M. Joldes, J.-M. Muller, V. Popescu (see [`Dd`]): 3 U² for a sum, 2 U² for a product with an f64.
+impl Word for Dd {
+    const UNIT: f64 = 4.0 * U * U;
+
+    fn value(self) -> f64 {
+        self.to_f64()
+    }
+}
+
 /// A part of a cell: the control values of `F`, which are off by `e` at most.
-struct Part {
-    f: Vec<[f64; 2]>,
+struct Part<T> {
+    f: Vec<[T; 2]>,
     e: [f64; 2],
     from: [f64; 2],
     width: [f64; 2],
@@ -31,29 +64,29 @@ struct Part {
 
 /// The least and the greatest of a combination of both functions.
 #[inline(always)]
-fn range(f: &[[f64; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
+fn range<T: Word>(f: &[[T; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for [x, y] in f {
-        let value = a.mul_add(*x, b * y);
+        let value = (*x * a + *y * b).value();
         (low, high) = (low.min(value), high.max(value));
     }
     (low, high)
 }
 
-impl Part {
+impl<T: Word> Part<T> {
     /// Whether a combination of the functions is not zero in the part.
     #[inline(always)]
     fn is_clear_of(&self, by: [f64; 2]) -> bool {
         let (low, high) = range(&self.f, by);
         let most = low.abs().max(high.abs());
-        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * U * self.most(by);
+        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * T::UNIT * self.most(by);
         most > 0.0 && (low > e || high < -e)
     }
 
     /// The size that a combination's terms have at most.
     #[inline(always)]
     fn most(&self, by: [f64; 2]) -> f64 {
-        self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x).abs() + (by[1] * y).abs()))
+        self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x.value()).abs() + (by[1] * y.value()).abs()))
     }
 
     /// The value and slopes in the middle and bounds on second derivatives, by the part's own
@@ -68,37 +101,71 @@ impl Part {
         for i in 0..2 {
             let mut most = 0.0_f64;
             let mut h = [0.0_f64; 3];
+            let mut sums: Option<[T; 3]> = None;
             for (v, row) in self.f.chunks_exact(nu).enumerate() {
                 for u in 0..nu {
                     let f = row[u][i];
-                    most = most.max(f.abs());
-                    local.f[i] += f * (bu[u] * bv[v]);
-                    local.j[i][0] += f * (du[u] * bv[v]);
-                    local.j[i][1] += f * (bu[u] * dv[v]);
+                    most = most.max(f.value().abs());
+                    let terms = [f * (bu[u] * bv[v]), f * (du[u] * bv[v]), f * (bu[u] * dv[v])];
+                    sums = Some(sums.map_or(terms, |s| [0, 1, 2].map(|k| s[k] + terms[k])));
                     let at = |a: usize, b: usize| self.f[(v + b) * nu + u + a][i];
                     if u + 2 < nu {
-                        h[0] = h[0].max((at(2, 0) - 2.0 * at(1, 0) + f).abs());
+                        h[0] = h[0].max(((at(2, 0) - at(1, 0)) - (at(1, 0) - f)).value().abs());
                     }
                     if u + 1 < nu && v + 1 < nv {
-                        h[1] = h[1].max((at(1, 1) - at(1, 0) - at(0, 1) + f).abs());
+                        h[1] = h[1].max(((at(1, 1) - at(1, 0)) - (at(0, 1) - f)).value().abs());
                     }
                     if v + 2 < nv {
-                        h[2] = h[2].max((at(0, 2) - 2.0 * at(0, 1) + f).abs());
+                        h[2] = h[2].max(((at(0, 2) - at(0, 1)) - (at(0, 1) - f)).value().abs());
                     }
                 }
             }
+            if let Some([f, a, b]) = sums {
+                (local.f[i], local.j[i]) = (f.value(), [a.value(), b.value()]);
+            }
             // Control values are off by `e`, second differences by four times that, and what they
             // round.
-            let slack = 4.0 * self.e[i] + 8.0 * U * most;
+            let slack = 4.0 * self.e[i] + 8.0 * T::UNIT * most;
             let factors = [degree_u * (degree_u - 1.0), degree_u * degree_v, degree_v * (degree_v - 1.0)];
             for k in 0..3 {
-                limits.h[i][k] = if factors[k] > 0.0 { factors[k] * (h[k] + slack) * wide } else { 0.0 };
+                limits.h[i][k] =
+                    if factors[k] > 0.0 { factors[k] * (h[k] + slack) * wide * ROUNDED } else { 0.0 };
             }
             // In the middle the Bernstein polynomials are exact; one sum of all terms rounds.
-            limits.e[i] = ((nu * nv + 2) as f64).mul_add(U * most, self.e[i]) * ROUNDED;
-            limits.e_j[i] = 2.0 * degree_u.max(degree_v) * limits.e[i];
+            limits.e[i] = ((nu * nv + 2) as f64).mul_add(T::UNIT * most, self.e[i]) * ROUNDED;
+            let steepest = local.j[i][0].abs().max(local.j[i][1].abs());
+            limits.e_j[i] = 2.0 * degree_u.max(degree_v) * limits.e[i] + U * steepest;
         }
         (local, limits)
+    }
+
+    /// Whether it is too small to be halved, or a combination of the functions cannot be told from
+    /// zero all over it.
+    #[inline(always)]
+    fn is_noise(&self, by: [f64; 2]) -> bool {
+        let (low, high) = range(&self.f, by);
+        let e = by[0].abs() * self.e[0] + by[1].abs() * self.e[1];
+        self.width[0].max(self.width[1]) < LEAST || low.abs().max(high.abs()) <= NOISE * e
+    }
+
+    /// The point of the net at `x`, by de Casteljau's algorithm, and its slopes.
+    fn at(&self, nu: usize, [x, y]: [f64; 2]) -> Local {
+        let nv = self.f.len() / nu;
+        let ((bu, du), (bv, dv)) = (basis(nu, x), basis(nv, y));
+        let mut local = Local { f: [0.0; 2], j: [[0.0; 2]; 2] };
+        let mut column = Vec::with_capacity(nv);
+        for (v, row) in self.f.chunks_exact(nu).enumerate() {
+            for (u, f) in row.iter().enumerate() {
+                for i in 0..2 {
+                    let f = f[i].value();
+                    local.j[i][0] += f * (du[u] * bv[v]);
+                    local.j[i][1] += f * (bu[u] * dv[v]);
+                }
+            }
+            column.push(reduced(row, x));
+        }
+        local.f = reduced(&column, y).map(T::value);
+        local
     }
 
     /// Both halves along a parameter.
@@ -113,15 +180,15 @@ impl Part {
             for level in 1..n {
                 for k in 0..n - level {
                     let (a, b) = (high[at(k)], high[at(k + 1)]);
-                    high[at(k)] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+                    high[at(k)] = [(a[0] + b[0]) * 0.5, (a[1] + b[1]) * 0.5];
                 }
                 low[at(level)] = high[at(0)];
             }
         }
         let mut e = self.e;
         for (i, e) in e.iter_mut().enumerate() {
-            let most = self.f.iter().fold(0.0, |m: f64, f| m.max(f[i].abs()));
-            *e = (n as f64).mul_add(U * most, *e) * ROUNDED;
+            let most = self.f.iter().fold(0.0, |m: f64, f| m.max(f[i].value().abs()));
+            *e = (n as f64).mul_add(T::UNIT * most, *e) * ROUNDED;
         }
         let mut width = self.width;
         width[along] *= 0.5;
@@ -129,6 +196,99 @@ impl Part {
         from[along] += width[along];
         [Self { f: low, e, from: self.from, width }, Self { f: high, e, from, width }]
     }
+}
+
+/// The point of a curve.
+fn reduced<T: Word>(curve: &[[T; 2]], t: f64) -> [T; 2] {
+    let mut now = curve.to_vec();
+    for level in (1..now.len()).rev() {
+        for k in 0..level {
+            now[k] = [0, 1].map(|c| now[k][c] + (now[k + 1][c] - now[k][c]) * t);
+        }
+    }
+    now[0]
+}
+
+/// The crossings of a line and a part of a cell, in double-double; `false` if nothing is gained by that.
+#[cold]
+#[inline(never)]
+fn in_double(
+    view: &View<'_>,
+    exact: &Exact<'_>,
+    (from, width): ([f64; 2], [f64; 2]),
+    out: &mut Vec<Found>,
+) -> bool {
+    let cell = view.cell;
+    let low = [0, 1].map(|k| from[k].mul_add(cell.width[k], cell.from[k]));
+    let high = [0, 1].map(|k| (from[k] + width[k]).mul_add(cell.width[k], cell.from[k]));
+    let Some((f, e)) = exact.net(cell.face, low, high) else { return false };
+    let [nu, nv] = cell.size;
+    let mut open = vec![Part { f, e, from, width }];
+    let (mut steps, mut left, first) = (0, 0, out.len());
+    while let Some(part) = open.pop() {
+        if cell.is_half && part.from[0] + part.from[1] >= 1.0 {
+            continue;
+        }
+        if part.is_clear_of([1.0, 0.0]) || part.is_clear_of([0.0, 1.0]) {
+            continue;
+        }
+        let (local, mut limits) = part.local([nu, nv]);
+        let [slow, fast] = singular(&local.j);
+        if part.is_clear_of(slow) || part.is_clear_of(fast) {
+            continue;
+        }
+        let start = match limits.content(&local, 0.5, 0.5 + MARGIN) {
+            Content::Nothing => continue,
+            Content::AtMostOne(x) => Some(x),
+            Content::Unknown => None,
+        };
+        if let Some([x, y]) = start {
+            // De Casteljau's algorithm rounds three times a level, slopes as an f64.
+            let degree = (nu + nv) as f64;
+            let wide = power(1.0 + 2.0 * MARGIN, nu + nv - 2);
+            for i in 0..2 {
+                let most = part.f.iter().fold(0.0, |m: f64, f| m.max(f[i].to_f64().abs()));
+                limits.e[i] = (3.0 * degree).mul_add(Dd::UNIT * most, part.e[i]) * wide * ROUNDED;
+                limits.e_j[i] = (2.0 * degree).mul_add(limits.e[i], 16.0 * degree * degree * U * most * wide);
+            }
+            let region = [[-MARGIN, 1.0 + MARGIN]; 2];
+            let zero = limits.zero([0.5 + x, 0.5 + y], (&region, &region), |x| part.at(nu, x));
+            if let Some(zero) = zero {
+                if touches(&zero, [0.0; 2], [1.0; 2]) {
+                    let in_cell = |k: usize| zero.x[k].mul_add(part.width[k], part.from[k]);
+                    out.extend(view.found(&Zero {
+                        x: [in_cell(0), in_cell(1)],
+                        radius: [0, 1].map(|k| (zero.radius[k] * part.width[k] + U) * ROUNDED),
+                        alone: (zero.alone * part.width[0].min(part.width[1]) - U).max(0.0),
+                        sign: zero.sign,
+                    }));
+                }
+                continue;
+            }
+        }
+        steps += 1;
+        if part.is_noise(slow) || steps > MOST_STEPS {
+            left += 1;
+            if left > MOST_OPEN {
+                out.truncate(first);
+                return false;
+            }
+            out.push(view.unresolved(part.from, part.width));
+            continue;
+        }
+        let along = usize::from(part.change(nu, 1) > part.change(nu, 0));
+        let along = if part.width[along] < LEAST { 1 - along } else { along };
+        let [low, high] = part.halves(nu, along);
+        open.push(high);
+        open.push(low);
+    }
+    if left > 0 && view.turn(from, width) != 0 {
+        // The surface does not turn back there: what stays open is no touch, and the sign of the
+        // crossing is known better from farther away.
+        out.truncate(first);
+        return false;
+    }
+    true
 }
 
 /// The combinations of both functions that change most slowly and fastest from the middle: the
@@ -153,15 +313,15 @@ fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
 /// The crossings of a line and a cell, and the boxes of the cell in which none can be told from a
 /// miss.
 #[inline(never)]
-pub(super) fn meet(view: &View<'_>, out: &mut Vec<Found>) {
+pub(super) fn meet(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
     Isa::detect().run(
         #[inline(always)]
-        || meet_here(view, out),
+        || meet_here(view, exact, out),
     );
 }
 
 #[inline(always)]
-fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
+fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
     let cell = view.cell;
     let [nu, nv] = cell.size;
     let mut f = Vec::with_capacity(cell.net.len());
@@ -169,8 +329,12 @@ fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
         f.push(view.sheared(p).0);
     }
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
-    let mut steps = 0;
+    let (mut steps, mut double) = (0, 0);
     while let Some(part) = open.pop() {
+        // Beyond the patch; sums of such fractions are exact.
+        if cell.is_half && part.from[0] + part.from[1] >= 1.0 {
+            continue;
+        }
         if part.is_clear_of([1.0, 0.0]) || part.is_clear_of([0.0, 1.0]) {
             continue;
         }
@@ -203,17 +367,17 @@ fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
             });
             if let Some(zero) = view.zero(x, &own, &region) {
                 if touches(&zero, part.from, part.width) {
-                    out.push(view.found(&zero));
+                    out.extend(view.found(&zero));
                 }
                 continue;
             }
         }
         steps += 1;
-        let small = part.width[0].max(part.width[1]) < LEAST;
-        let (low, high) = range(&part.f, slow);
-        let e = slow[0].abs() * part.e[0] + slow[1].abs() * part.e[1];
-        if small || steps > MOST_STEPS || low.abs().max(high.abs()) <= NOISE * e {
-            out.push(view.unresolved(part.from, part.width));
+        if part.is_noise(slow) || steps > MOST_STEPS {
+            double += 1;
+            if double > MOST_DOUBLE || !in_double(view, exact, (part.from, part.width), out) {
+                out.push(view.unresolved(part.from, part.width));
+            }
             continue;
         }
         let along = usize::from(part.change(nu, 1) > part.change(nu, 0));
@@ -224,7 +388,7 @@ fn meet_here(view: &View<'_>, out: &mut Vec<Found>) {
     }
 }
 
-impl Part {
+impl<T: Word> Part<T> {
     /// By how much the functions change along a parameter.
     #[inline(always)]
     fn change(&self, nu: usize, along: usize) -> f64 {
@@ -236,7 +400,7 @@ impl Part {
                 let first = if along == 0 { v * nu } else { u };
                 if a + b > 0 {
                     let (p, q) = (self.f[v * nu + u], self.f[first]);
-                    most = most.max((p[0] - q[0]).abs()).max((p[1] - q[1]).abs());
+                    most = most.max((p[0] - q[0]).value().abs()).max((p[1] - q[1]).value().abs());
                 }
             }
         }

@@ -16,8 +16,9 @@ use super::topology::{Adjacency, Topology};
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
 use crate::patch::cell::{Cell, cells};
+use crate::patch::exact::Exact;
 use crate::patch::line::{Found, Line, View};
-use crate::patch::net::Net;
+use crate::patch::net::{FaceNet, Net};
 use crate::patch::shell::{Face, ROOM, is_held, joined, overlap, root};
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
@@ -112,7 +113,16 @@ pub(super) struct Leaf {
 impl Leaf {
     pub(super) fn new(place: Place, net: &Net) -> Self {
         let base = [0, 1, 2].map(|c| net.points[5][c].to_f64());
-        Self { place, base, face: Face { size: net.size, net: net.relative(base).into() } }
+        let face = Face {
+            size: net.size,
+            net: net.relative(base).into(),
+            is_triangle: false,
+            lightest: 1.0,
+            largest: 1.0,
+            trim: None,
+            is_turned: false,
+        };
+        Self { place, base, face }
     }
 }
 
@@ -145,6 +155,8 @@ pub(super) struct Limit {
     pub(super) tails: Box<[Node]>,
     /// First one for each quadrilateral.
     pub(super) spots: Box<[Spot]>,
+    /// The control points of the leaves in double-double.
+    nets: Box<[FaceNet]>,
     cells: Box<[Cell]>,
     items: Box<[Item]>,
     tree: Tree,
@@ -166,7 +178,7 @@ struct Lists {
     nodes: Vec<u32>,
     found: Vec<Found>,
     extra: Vec<Extra>,
-    cells: Vec<Cell>,
+    cells: Vec<(Cell, Aabb)>,
 }
 
 thread_local! {
@@ -174,10 +186,10 @@ thread_local! {
 }
 
 #[inline(never)]
-fn meet_cell(line: &Line, cell: &Cell, found: &mut Vec<Found>) {
+fn meet_cell(line: &Line, cell: &Cell, exact: &Exact<'_>, found: &mut Vec<Found>) {
     Isa::detect().run(
         #[inline(always)]
-        || View::new(line, cell, false).meet(found),
+        || View::new(line, cell, false).meet(exact, found, 0.0),
     );
 }
 
@@ -214,7 +226,7 @@ impl Limit {
             roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
         let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
-        let (mut leaves, mut tails) = (Vec::new(), Vec::new());
+        let (mut leaves, mut nets, mut tails) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = Vec::new();
         let mut open: Vec<(usize, Node)> =
             roots.into_iter().map(|node| (node.place.quad as usize, node)).collect();
@@ -222,8 +234,11 @@ impl Limit {
         while let Some((spot, node)) = open.pop() {
             if let Some(net) = node.net(&plans) {
                 spots[spot] = Spot::Leaf(leaves.len() as u32);
+                let leaf = Leaf::new(node.place, &net);
+                let net = FaceNet::Square(net);
                 cells(&net, false, leaves.len() as u32, &mut all);
-                leaves.push(Leaf::new(node.place, &net));
+                nets.push(net);
+                leaves.push(leaf);
             } else if node.depth < ahead
                 && let Some(quarters) = node.quarters(&plans)
             {
@@ -237,7 +252,7 @@ impl Limit {
             }
         }
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
-        let mut boxes: Vec<Aabb> = all.iter().map(Cell::bounds).collect();
+        let mut boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
         boxes.extend(tails.iter().map(|node| hull(&node.points).expanded(room)));
         let (tree, order) = Tree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)).expanded(room);
@@ -256,7 +271,8 @@ impl Limit {
             leaves: leaves.into(),
             tails: tails.into(),
             spots: spots.into(),
-            cells: all.into(),
+            nets: nets.into(),
+            cells: all.into_iter().map(|(cell, _)| cell).collect(),
             items,
             tree,
             outward: 1,
@@ -284,7 +300,7 @@ impl Limit {
                 crossing.face = place.quad;
                 crossing.sign *= self.outward;
                 crossing.turn *= self.outward;
-                if let Some(root) = root(&at, &crossing) {
+                if let Some(root) = root(&at, &crossing, crossing.uv.map(|x| x.clamp(0.0, 1.0))) {
                     roots.push(root);
                 }
             }
@@ -305,6 +321,7 @@ impl Limit {
         let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
         let window = [begin - ROOM, end + ROOM];
         let line = Line::new(at);
+        let exact = Exact::new(at, &self.nets, line.axes);
         lists.nodes.clear();
         lists.found.clear();
         lists.extra.clear();
@@ -319,8 +336,10 @@ impl Limit {
                 Inner::Leaf(from, to) => {
                     for item in &self.items[from..to] {
                         match *item {
-                            Item::Cell(k) => meet_cell(&line, &self.cells[k as usize], &mut lists.found),
-                            Item::Tail(k) => self.unfold(&line, &self.tails[k as usize], window, lists),
+                            Item::Cell(k) => {
+                                meet_cell(&line, &self.cells[k as usize], &exact, &mut lists.found);
+                            }
+                            Item::Tail(k) => self.unfold(at, &line, &self.tails[k as usize], window, lists),
                         }
                     }
                 }
@@ -330,7 +349,7 @@ impl Limit {
 
     /// What a line meets of a corner.
     #[inline(never)]
-    fn unfold(&self, line: &Line, tail: &Node, window: [f64; 2], lists: &mut Lists) {
+    fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Node, window: [f64; 2], lists: &mut Lists) {
         let mut open = vec![tail.clone()];
         while let Some(node) = open.pop() {
             let (base, points) = node.relative();
@@ -343,9 +362,11 @@ impl Limit {
             if let Some(net) = node.net(&self.plans) {
                 lists.extra.push(Extra { place: node.place, room: 0.0 });
                 lists.cells.clear();
+                let net = FaceNet::Square(net);
                 cells(&net, false, number, &mut lists.cells);
-                for cell in &lists.cells {
-                    meet_cell(line, cell, &mut lists.found);
+                let exact = Exact::new(at, core::slice::from_ref(&net), line.axes).numbered_from(number);
+                for (cell, _) in &lists.cells {
+                    meet_cell(line, cell, &exact, &mut lists.found);
                 }
                 continue;
             }
@@ -369,6 +390,7 @@ impl Limit {
                 s_err: 0.5 * (high - low) * (1.0 + 4.0 * U) + U * (low.abs() + high.abs()),
                 sign: 0,
                 turn: sight.turn,
+                on_trim: false,
             });
         }
     }

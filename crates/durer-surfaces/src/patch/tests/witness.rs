@@ -131,6 +131,52 @@ impl Witness {
         Self { size, net, d_z: dz, flip }
     }
 
+    /// The functions of `ray` and a triangular patch of points and weights, over the whole square.
+    ///
+    /// All are multiplied by the same number, so that they stay whole: coefficients of powers are
+    /// differences of the net, and from these the net of the square follows.
+    pub(super) fn triangular(side: usize, points: &[[f64; 4]], ray: &Ray) -> Self {
+        let plain = Self::new([points.len(), 1], points, ray);
+        let n = side - 1;
+        let choose = |n: usize, k: usize| (0..k).fold(1_u64, |b, i| b * (n - i) as u64 / (i as u64 + 1));
+        let number = |k: u64| Exact::from(k as f64);
+        let all: u64 = (0..=n).map(|k| choose(n, k)).product();
+        let square = |net: &Vec<Exact>| {
+            let start = |j: usize| (0..j).map(|r| side - r).sum::<usize>();
+            let power = |a: usize, b: usize| {
+                // The difference, `a` times along u and `b` times along v.
+                let mut sum = Exact::from(0.0);
+                for j in 0..=b {
+                    for i in 0..=a {
+                        let term = &number(choose(a, i) * choose(b, j)) * &net[start(j) + i];
+                        let odd = (a - i + b - j) % 2 == 1;
+                        sum = if odd { &sum - &term } else { &sum + &term };
+                    }
+                }
+                &number(choose(n, a) * choose(n - a, b)) * &sum
+            };
+            let powers: Vec<Vec<Exact>> =
+                (0..=n).map(|a| (0..=n - a).map(|b| power(a, b)).collect()).collect();
+            let mut out = vec![];
+            for j in 0..=n {
+                for i in 0..=n {
+                    let mut sum = Exact::from(0.0);
+                    for (a, row) in powers.iter().enumerate().take(i + 1) {
+                        for (b, c) in row.iter().enumerate().take(j + 1) {
+                            let u = choose(i, a) * (all / choose(n, a));
+                            let v = choose(j, b) * (all / choose(n, b));
+                            sum = &sum + &(&(&number(u) * &number(v)) * c);
+                        }
+                    }
+                    out.push(sum);
+                }
+            }
+            out
+        };
+        let net = plain.net.iter().map(square).collect();
+        Self { size: [side; 2], net, ..plain }
+    }
+
     fn part(&self, low: &[Exact; 2], high: &[Exact; 2]) -> Net {
         let cut_both = |net: &Vec<Exact>| {
             let rows = each(net, self.size, 0, |curve| cut(curve, &low[0], &high[0]));

@@ -1,0 +1,57 @@
+//! A ray and the faces of a shell in double-double: for places where f64 does not tell a crossing from
+//! a miss.
+
+use super::net::FaceNet;
+use crate::CentredRay;
+use core::cell::OnceCell;
+use durer_math::{Dd, EFloat};
+
+/// A ray, computed in double-double when it is first asked for.
+pub(super) struct Exact<'a> {
+    at: &'a CentredRay<'a>,
+    faces: &'a [FaceNet],
+    /// The number of the first face.
+    first: u32,
+    /// Origin and direction, axes in the order in which the line is sheared.
+    ray: OnceCell<Option<[[EFloat<Dd>; 3]; 2]>>,
+    axes: [usize; 3],
+}
+
+impl<'a> Exact<'a> {
+    pub(super) fn new(at: &'a CentredRay<'a>, faces: &'a [FaceNet], axes: [usize; 3]) -> Self {
+        Self { at, faces, first: 0, ray: OnceCell::new(), axes }
+    }
+
+    /// The same with faces that are numbered from `first` on.
+    pub(super) fn numbered_from(self, first: u32) -> Self {
+        Self { first, ..self }
+    }
+
+    /// The control values over a box of parameters of both functions that vanish at a crossing, times
+    /// the third component of the direction, and bounds on their errors.
+    pub(super) fn net(&self, face: u32, low: [f64; 2], high: [f64; 2]) -> Option<(Vec<[Dd; 2]>, [f64; 2])> {
+        let ray = self.ray.get_or_init(|| {
+            let ray = self.at.in_double()?;
+            let [o, d] = [ray.o, ray.d].map(|v| self.axes.map(|axis| v[axis] / ray.w));
+            Some([o, d])
+        });
+        let [o, d] = ray.as_ref()?;
+        let face = self.faces.get(face.checked_sub(self.first)? as usize)?;
+        let net = face.part(low, high);
+        // The net is off by this much of its size, as cells assume.
+        let lost = face.lost();
+        let number = |x: Dd| EFloat::with_error(x, lost);
+        let (mut out, mut e) = (Vec::with_capacity(net.points.len()), [0.0_f64; 2]);
+        for p in &net.points {
+            let w = number(p[3]);
+            let about = |k: usize| number(p[self.axes[k]]) - o[k] * w;
+            let z = about(2);
+            let f = [0, 1].map(|k| about(k) * d[2] - z * d[k]);
+            for k in 0..2 {
+                e[k] = e[k].max(f[k].e);
+            }
+            out.push(f.map(|f| f.v));
+        }
+        e.iter().all(|e| e.is_finite()).then_some((out, e))
+    }
+}

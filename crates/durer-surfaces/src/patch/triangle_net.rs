@@ -1,0 +1,124 @@
+//! Control nets of triangular Bezier patches in double-double.
+//!
+//! ```text
+//!    v ▲  2                 S(u, v) = Σ  n! / (i! j! k!)  u^i v^j (1 - u - v)^k  P_ij,
+//!      │  ● ●                       i+j+k=n
+//!      │  ● ● ●
+//!      │  0 ● ● 1 ▶ u       rows one after another along v, each one point shorter
+//! ```
+//!
+//! `P_ij` is the blossom of the patch at the corner 1 (`i` times), 2 (`j` times) and 0 (L. Ramshaw,
+//! "Blossoms are polar forms", *Computer Aided Geometric Design* 6 (1989) 323-358; G. Farin,
+//! "Triangular Bernstein-Bezier patches", *Computer Aided Geometric Design* 3 (1986) 83-127).
+
+use super::net::{Homogeneous, Net};
+use durer_math::Dd;
+
+/// The control points of a triangular patch or of a part of it.
+#[derive(Clone, Debug)]
+pub(crate) struct TriangleNet {
+    /// How many points a side has: the degree and one.
+    pub(crate) side: usize,
+    pub(crate) points: Vec<Homogeneous<Dd>>,
+}
+
+/// How many points a net has whose sides have this many.
+pub(super) fn count(side: usize) -> usize {
+    side * (side + 1) / 2
+}
+
+/// Where a point stands in the list of a net: `i` along u, `j` along v.
+#[inline(always)]
+fn place(side: usize, i: usize, j: usize) -> usize {
+    j * (2 * side + 1 - j) / 2 + i
+}
+
+/// De Casteljau's algorithm, one step: a net with one point less along each side.
+fn step(points: &[Homogeneous<Dd>], side: usize, [u, v]: [f64; 2]) -> Vec<Homogeneous<Dd>> {
+    let (u, v) = (Dd::from(u), Dd::from(v));
+    let mut out = Vec::with_capacity(count(side - 1));
+    for j in 0..side - 1 {
+        for i in 0..side - 1 - j {
+            let [p, a, b] =
+                [place(side, i, j), place(side, i + 1, j), place(side, i, j + 1)].map(|k| &points[k]);
+            out.push([0, 1, 2, 3].map(|c| p[c] + (u * (a[c] - p[c]) + v * (b[c] - p[c]))));
+        }
+    }
+    out
+}
+
+fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
+}
+
+impl TriangleNet {
+    /// The part of the patch in the triangle of these corners, which may reach beyond the patch.
+    pub(super) fn part(&self, corners: [[f64; 2]; 3]) -> Self {
+        let [o, a, b] = corners;
+        if corners == [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+            return self.clone();
+        }
+        let (side, n) = (self.side, self.side - 1);
+        let mut points = self.points.clone();
+        let mut first = self.points.clone();
+        for k in 0..=n {
+            let mut second = first.clone();
+            for j in 0..=n - k {
+                let mut last = second.clone();
+                for left in (1..=n - k - j).rev() {
+                    last = step(&last, left + 1, a);
+                }
+                points[place(side, n - k - j, j)] = last[0];
+                if j < n - k {
+                    second = step(&second, n - k - j + 1, b);
+                }
+            }
+            if k < n {
+                first = step(&first, n - k + 1, o);
+            }
+        }
+        Self { side, points }
+    }
+
+    /// The same polynomials over the square whose lower left half the triangle is, as a net of a
+    /// patch of degree n along both parameters.
+    ///
+    /// With `C` the corner (1, 1), the point `P_ij` of that net is the mean over all ways to pair `i`
+    /// times `u = 1` with `j` times `v = 1`: `k` of the pairs are at `C`. The blossom there follows
+    /// from `C = 1 + 2 - 0`. Points along u = 0 and v = 0 stay as they are.
+    pub(super) fn over_square(&self) -> Net {
+        let (side, n) = (self.side, self.side - 1);
+        // The blossom with `k` arguments at C: nets of sides that shrink.
+        let mut beyond = vec![self.points.clone()];
+        for k in 1..=n {
+            let (wide, last) = (side + 1 - k, &beyond[k - 1]);
+            let mut next = Vec::with_capacity(count(wide - 1));
+            for j in 0..wide - 1 {
+                for i in 0..wide - 1 - j {
+                    let [p, a, b] =
+                        [place(wide, i, j), place(wide, i + 1, j), place(wide, i, j + 1)].map(|k| &last[k]);
+                    next.push([0, 1, 2, 3].map(|c| a[c] + (b[c] - p[c])));
+                }
+            }
+            beyond.push(next);
+        }
+        let mut points = Vec::with_capacity(side * side);
+        for j in 0..side {
+            let all = binomial(n, j);
+            for i in 0..side {
+                let mut sum = [Dd::from(0.0); 4];
+                for k in (i + j).saturating_sub(n)..=i.min(j) {
+                    let ways = binomial(i, k) * binomial(n - i, j - k);
+                    let p = &beyond[k][place(side - k, i - k, j - k)];
+                    if ways == all {
+                        sum = *p;
+                        break;
+                    }
+                    sum = [0, 1, 2, 3].map(|c| sum[c] + p[c] * ways / Dd::from(all));
+                }
+                points.push(sum);
+            }
+        }
+        Net { size: [side; 2], points }
+    }
+}
