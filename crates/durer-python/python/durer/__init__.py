@@ -18,67 +18,62 @@ pictures. Submodules: `durer.trimesh` and `durer.open3d` stand in for the ray cl
 from __future__ import annotations
 
 from . import _native
-from ._camera import Camera
-from ._formula import Expression, Formula, formula, where
-from ._objects import (
-    BezierPatch,
-    Blob,
+from ._basic import (
     Box,
-    Clipped,
-    Complement,
     Cone,
     Cyclide,
     Cylinder,
-    Deformed,
-    Difference,
     Disc,
     Ellipsoid,
     EllipticCone,
     EllipticCylinder,
     EllipticParaboloid,
-    HeightField,
     HyperbolicCylinder,
     HyperbolicParaboloid,
     HyperboloidOneSheet,
     HyperboloidTwoSheets,
-    Intersection,
-    Ifs,
-    Julia,
-    Lathe,
-    Lemon,
-    Merge,
-    Menger,
-    Mesh,
-    Nurbs,
-    Object,
-    Ovus,
     ParabolicCylinder,
     Parallelogram,
-    Placed,
     Plane,
     Polygon,
     Polynomial,
-    Prism,
     Quadric,
-    Sierpinski,
     Sphere,
-    SphereSweep,
-    SphericalSector,
-    Superellipsoid,
-    SurfaceOfRevolution,
-    Sweep,
-    Terrain,
-    Texture,
-    Textured,
     Torus,
     Triangle,
+)
+from ._camera import Camera
+from ._fields import Blob, Ifs, Julia, Menger, Sierpinski, Superellipsoid
+from ._formula import Expression, Formula, formula, where
+from ._mesh import Mesh, read_mesh
+from ._objects import (
+    Clipped,
+    Complement,
+    Deformed,
+    Difference,
+    Intersection,
+    Merge,
+    Object,
+    Placed,
+    Texture,
+    Textured,
     Union,
     WithoutCaps,
-    read_mesh,
     rotation,
 )
+from ._sheets import BezierPatch, HeightField, Nurbs, Terrain
+from ._swept import (
+    Lathe,
+    Lemon,
+    Ovus,
+    Prism,
+    SphereSweep,
+    SphericalSector,
+    SurfaceOfRevolution,
+    Sweep,
+)
 from ._render import Picture, bound_image, depth_image, normal_image, object_image, render
-from ._results import AllHits, Hits, Spans
+from ._results import AllHits, Hits, ObjectSpans, Spans
 from ._scene import Light, Scene, load
 from ._science import (
     Chords,
@@ -146,6 +141,7 @@ __all__ = [
     "Nurbs",
     "Object",
     "object_image",
+    "ObjectSpans",
     "overlaps",
     "Ovus",
     "ParabolicCylinder",
