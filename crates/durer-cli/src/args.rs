@@ -127,6 +127,8 @@ pub(crate) enum Query {
     All,
     /// The intervals inside the union of all solids.
     Spans,
+    /// The intervals inside each object.
+    SpansByObject,
 }
 
 #[derive(Debug, Args)]

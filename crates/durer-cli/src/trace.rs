@@ -4,7 +4,7 @@ use crate::args::{Query, TraceArgs};
 use crate::arrays::{NpzWriter, read_rays};
 use crate::failure::Failure;
 use crate::{input, output};
-use durer::geometry::{Geometry, Hit, ObjectId, Span};
+use durer::geometry::{Geometry, Hit, ObjectId, Ragged, Span};
 use durer::math::Ray;
 use durer::surfaces::{Need, SurfacePoint};
 use rayon::prelude::*;
@@ -32,7 +32,15 @@ pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
                 Query::Closest => closest(geometry, &rays).write(&mut npz)?,
                 Query::Any => npz.array("hit", None, geometry.any_batch(&rays))?,
                 Query::All => all(geometry, &rays, &mut npz)?,
-                Query::Spans => spans(geometry, &rays, &mut npz)?,
+                Query::Spans => {
+                    let found = spans(&rays, |step| geometry.spans_batch(step));
+                    write_spans(&mut npz, &found, |span| *span)?;
+                }
+                Query::SpansByObject => {
+                    let found = spans(&rays, |step| geometry.spans_by_object_batch(step));
+                    write_spans(&mut npz, &found, |of| of.span)?;
+                    npz.array("object", None, found.items.iter().map(|s| s.object.0 as i32).collect())?;
+                }
             }
             npz.finish()
         })?;
@@ -142,20 +150,25 @@ fn all(geometry: &Geometry, rays: &[Ray], npz: &mut NpzWriter) -> std::io::Resul
     npz.array("sign", None, sign)
 }
 
-fn spans(geometry: &Geometry, rays: &[Ray], npz: &mut NpzWriter) -> std::io::Result<()> {
-    let mut offsets = vec![0_u64];
-    let mut found: Vec<Span> = Vec::new();
+/// The answers to all rays, asked step by step.
+fn spans<T: Copy>(rays: &[Ray], ask: impl Fn(&[Ray]) -> Ragged<T>) -> Ragged<T> {
+    let mut found = Ragged { offsets: vec![0], items: Vec::new() };
     for step in rays.chunks(STEP) {
-        let spans = geometry.spans_batch(step);
+        let spans = ask(step);
         for i in 0..step.len() {
-            found.extend(spans.of(i));
-            offsets.push(found.len() as u64);
+            found.items.extend(spans.of(i));
+            found.offsets.push(found.items.len() as u64);
         }
     }
+    found
+}
+
+fn write_spans<T>(npz: &mut NpzWriter, found: &Ragged<T>, of: impl Fn(&T) -> Span) -> std::io::Result<()> {
+    let spans = || found.items.iter().map(&of);
     let number = |id: Option<ObjectId>| id.map_or(-1, |id| id.0 as i32);
-    npz.array("offsets", None, offsets)?;
-    npz.array("t_in", None, found.iter().map(|s| s.t_in).collect())?;
-    npz.array("t_out", None, found.iter().map(|s| s.t_out).collect())?;
-    npz.array("object_in", None, found.iter().map(|s| number(s.object_in)).collect())?;
-    npz.array("object_out", None, found.iter().map(|s| number(s.object_out)).collect())
+    npz.array("offsets", None, found.offsets.clone())?;
+    npz.array("t_in", None, spans().map(|s| s.t_in).collect())?;
+    npz.array("t_out", None, spans().map(|s| s.t_out).collect())?;
+    npz.array("object_in", None, spans().map(|s| number(s.object_in)).collect())?;
+    npz.array("object_out", None, spans().map(|s| number(s.object_out)).collect())
 }

@@ -3,7 +3,7 @@
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
 use crate::interleave::{ABREAST, Abreast};
-use crate::{Hit, Span};
+use crate::{Hit, ObjectSpan, Span};
 use durer_math::Ray;
 use rayon::prelude::*;
 
@@ -62,6 +62,11 @@ impl Geometry {
     /// [`Geometry::spans`] for each ray.
     pub fn spans_batch(&self, rays: &[Ray]) -> Ragged<Span> {
         ragged(rays, |ray| self.spans(ray))
+    }
+
+    /// [`Geometry::spans_by_object`] for each ray.
+    pub fn spans_by_object_batch(&self, rays: &[Ray]) -> Ragged<ObjectSpan> {
+        ragged(rays, |ray| self.spans_by_object(ray))
     }
 }
 

@@ -104,3 +104,14 @@ pub struct Span {
     /// The object whose surface is left; `None` if the ray's range ends inside.
     pub object_out: Option<ObjectId>,
 }
+
+/// An interval of a ray inside one object; see
+/// [`Geometry::spans_by_object`](crate::Geometry::spans_by_object).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObjectSpan {
+    /// The object that the ray is in.
+    pub object: ObjectId,
+    /// From where to where. Its objects are this one, or `None` where the ray's range begins or
+    /// ends inside.
+    pub span: Span,
+}

@@ -71,7 +71,7 @@ pub use crate::bundle::CandidateList;
 pub use crate::csg::{Compound, CompoundBuilder, CsgError, Part, Shown};
 pub use crate::explain::{Event, Explanation, MOST_CROSSINGS, SurfaceCounts, Verdict};
 pub use crate::geometry::Geometry;
-pub use crate::hit::{Hit, LeafId, ObjectId, PrimitiveId, Span};
+pub use crate::hit::{Hit, LeafId, ObjectId, ObjectSpan, PrimitiveId, Span};
 pub use crate::ids::EVERYTHING;
 pub use crate::packet::{Hits8, Rays8, Scratch, Sources8};
 pub use crate::refit::RefitError;

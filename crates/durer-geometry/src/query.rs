@@ -4,7 +4,7 @@ use crate::closest::ClosestHit;
 use crate::context::RayContext;
 use crate::geometry::{Geometry, slots};
 use crate::ids::EVERYTHING;
-use crate::{Hit, Span, spans::Tracks};
+use crate::{Hit, ObjectSpan, Span, spans::Tracks};
 use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
 use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, SurfacePoint};
@@ -100,12 +100,45 @@ impl Geometry {
 
     /// [`Geometry::spans`] of the solids whose mask has a common bit with `mask`.
     pub fn spans_masked(&self, ray: &Ray, mask: u32) -> Vec<Span> {
-        let tracks = self.walk(ray, mask, |walk| {
+        let tracks = self.tracks(ray, mask);
+        tracks.map_or_else(Vec::new, |tracks| tracks.merge(ray.t_min, ray.t_max))
+    }
+
+    /// The intervals of the ray inside each object: which solid it is in, from where to where.
+    ///
+    /// An object's own solids are merged as in [`Geometry::spans`]; those of different objects are
+    /// not, so where objects overlap each has its own interval. Ascending by `t_in`, then by
+    /// object.
+    ///
+    /// ```
+    /// use durer_geometry::Geometry;
+    /// use durer_math::{Point3, Ray, Vec3};
+    /// use durer_surfaces::Sphere;
+    ///
+    /// let ball = |x: f64| Sphere::new(Point3::new(x, 0.0, 0.0), 1.0);
+    /// let scene = Geometry::builder().add(ball(0.0)?).add(ball(1.0)?).build()?;
+    /// let spans = scene.spans_by_object(&Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X));
+    /// let stretches: Vec<_> = spans.iter().map(|s| (s.object.0, s.span.t_in, s.span.t_out)).collect();
+    /// assert_eq!(stretches, [(0, 2.0, 4.0), (1, 3.0, 5.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn spans_by_object(&self, ray: &Ray) -> Vec<ObjectSpan> {
+        self.spans_by_object_masked(ray, EVERYTHING)
+    }
+
+    /// [`Geometry::spans_by_object`] of the solids whose mask has a common bit with `mask`.
+    pub fn spans_by_object_masked(&self, ray: &Ray, mask: u32) -> Vec<ObjectSpan> {
+        let tracks = self.tracks(ray, mask);
+        tracks.map_or_else(Vec::new, |tracks| tracks.merge_by_object(ray.t_min, ray.t_max))
+    }
+
+    /// The crossings of all solids; `None` if the ray is not valid.
+    fn tracks(&self, ray: &Ray, mask: u32) -> Option<Tracks> {
+        self.walk(ray, mask, |walk| {
             let mut tracks = Tracks::new(mask);
             spans(walk, &LocalPoint::new(ray.origin), &mut tracks);
             tracks
-        });
-        tracks.map_or_else(Vec::new, |tracks| tracks.merge(ray.t_min, ray.t_max))
+        })
     }
 
     /// Whether the point lies inside or on a solid: exact.

@@ -11,7 +11,7 @@
 use crate::arena::Filter;
 use crate::closest::Placement;
 use crate::ids::Id;
-use crate::{ObjectId, Span};
+use crate::{ObjectId, ObjectSpan, Span};
 use durer_surfaces::{PartId, Root};
 
 /// A solid: placement, arena, surface.
@@ -29,10 +29,18 @@ struct Event {
     part: u32,
 }
 
+/// Whether the ray starts inside a solid.
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    solid: Key,
+    object: u32,
+    inside: bool,
+}
+
 /// The crossings that a traversal collects, with their context.
 pub(crate) struct Tracks {
     events: Vec<Event>,
-    starts: Vec<(Key, bool)>,
+    starts: Vec<Start>,
     pub(crate) placement: Placement,
     pub(crate) arena: u32,
     mask: u32,
@@ -80,8 +88,9 @@ impl Tracks {
     }
 
     /// Records whether the ray starts inside a solid whose crossings do not decide it.
-    pub(crate) fn start(&mut self, surface: u32, inside: bool) {
-        self.starts.push((self.key(surface), inside));
+    pub(crate) fn start(&mut self, surface: u32, id: Id, inside: bool) {
+        let object = self.placement.object.wrapping_add(id.object);
+        self.starts.push(Start { solid: self.key(surface), object, inside });
     }
 
     /// Whether the crossings of a surface decide whether the ray starts inside.
@@ -96,6 +105,27 @@ impl Tracks {
         overlapping(&self.events[first..]).any(|group| net(group) != 0)
     }
 
+    /// The spans of each object.
+    pub(crate) fn merge_by_object(mut self, t_min: f64, t_max: f64) -> Vec<ObjectSpan> {
+        self.events.sort_by_key(|e| e.object);
+        self.starts.sort_by_key(|s| s.object);
+        let mut found = Vec::new();
+        let (mut events, mut starts) = (self.events.as_slice(), self.starts.as_slice());
+        loop {
+            let next = events.first().map(|e| e.object).into_iter().chain(starts.first().map(|s| s.object));
+            let Some(object) = next.min() else { break };
+            let (own, others) = events.split_at(events.partition_point(|e| e.object == object));
+            let (begun, rest) = starts.split_at(starts.partition_point(|s| s.object == object));
+            (events, starts) = (others, rest);
+            let tracks = Self { events: own.to_vec(), starts: begun.to_vec(), ..Self::new(self.mask) };
+            let object = ObjectId(object);
+            found.extend(tracks.merge(t_min, t_max).into_iter().map(|span| ObjectSpan { object, span }));
+        }
+        // Stable: spans of one object stay in their order, and objects ascend.
+        found.sort_by(|a, b| a.span.t_in.total_cmp(&b.span.t_in));
+        found
+    }
+
     /// The spans of the union.
     pub(crate) fn merge(mut self, t_min: f64, t_max: f64) -> Vec<Span> {
         // Where crossings of one solid coincide, the order of its parts counts, not that of the
@@ -105,7 +135,7 @@ impl Tracks {
         let mut changes = Vec::with_capacity(self.events.len());
         for solid in self.events.chunk_by_mut(|a, b| a.solid == b.solid) {
             keep_order(solid);
-            let told = self.starts.iter().find(|s| s.0 == solid[0].solid).map(|s| s.1);
+            let told = self.starts.iter().find(|s| s.solid == solid[0].solid).map(|s| s.inside);
             depth += usize::from(transitions(solid, told, &mut changes));
         }
         // Stable: successive crossings of one solid stay in their order.
@@ -117,7 +147,7 @@ impl Tracks {
     fn inside_without_crossing(&self) -> usize {
         let crossed = |key: &Key| self.events.binary_search_by(|e| e.solid.cmp(key)).is_ok();
         let mut inside: Vec<Key> =
-            self.starts.iter().filter(|(key, inside)| *inside && !crossed(key)).map(|s| s.0).collect();
+            self.starts.iter().filter(|s| s.inside && !crossed(&s.solid)).map(|s| s.solid).collect();
         inside.sort_unstable();
         inside.dedup();
         inside.len()
@@ -236,7 +266,7 @@ mod tests {
         for (surface, root) in events {
             tracks.push(*surface, PartId(0), Id { object: *surface, primitive: 0 }, root);
         }
-        starts.iter().for_each(|&(s, inside)| tracks.start(s, inside));
+        starts.iter().for_each(|&(s, inside)| tracks.start(s, Id { object: s, primitive: 0 }, inside));
         let spans = tracks.merge(0.0, 100.0);
         let object = |o: Option<ObjectId>| o.map(|o| o.0);
         spans.iter().map(|s| (s.t_in, s.t_out, object(s.object_in), object(s.object_out))).collect()

@@ -182,11 +182,21 @@ impl Hits {
 #[pyclass(frozen, module = "durer._native")]
 pub(crate) struct Spans {
     pub(crate) spans: Vec<Span>,
+    /// The object of each, if they are those of one object at a time.
+    pub(crate) objects: Option<Vec<i64>>,
     pub(crate) offsets: Vec<i64>,
     pub(crate) invalid: usize,
 }
 
 impl Spans {
+    /// Adds the answers of a piece.
+    pub(crate) fn take(&mut self, offsets: &[u64], spans: impl Iterator<Item = Span>, invalid: usize) {
+        let before = self.spans.len() as i64;
+        self.offsets.extend(offsets[1..].iter().map(|&end| before + end as i64));
+        self.spans.extend(spans);
+        self.invalid += invalid;
+    }
+
     fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Span) -> T) -> Column<'py, T> {
         PyArray1::from_vec(py, self.spans.iter().map(of).collect())
     }
@@ -214,6 +224,11 @@ impl Spans {
 
     fn t_out<'py>(&self, py: Python<'py>) -> Column<'py, f64> {
         self.column(py, |s| s.t_out)
+    }
+
+    /// The object that the ray is in, if that was asked for.
+    fn object<'py>(&self, py: Python<'py>) -> Option<Column<'py, i64>> {
+        self.objects.as_ref().map(|o| PyArray1::from_slice(py, o))
     }
 
     fn object_in<'py>(&self, py: Python<'py>) -> Column<'py, i64> {

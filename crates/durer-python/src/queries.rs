@@ -165,28 +165,41 @@ fn all<'py>(
 }
 
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "rays, what is asked of them, and how")]
 fn spans<'py>(
     scene: &Scene,
     py: Python<'py>,
     origins: Matrix<'py>,
     directions: Matrix<'py>,
     ranges: Option<Matrix<'py>>,
+    by_object: bool,
     threads: usize,
     progress: Progress<'py>,
 ) -> PyResult<Spans> {
     let geometry = scene.geometry();
     with_rays(&origins, &directions, ranges.as_ref(), |rays| {
-        let mut spans = Spans { spans: Vec::new(), offsets: vec![0], invalid: 0 };
-        let work = |range: std::ops::Range<usize>| {
-            let rays = rays.of(range);
-            (geometry.spans_batch(&rays), invalid(&rays))
-        };
-        run(py, rays.len(), How { threads, progress }, work, |(found, invalid)| {
-            let before = spans.spans.len() as i64;
-            spans.offsets.extend(found.offsets[1..].iter().map(|&end| before + end as i64));
-            spans.spans.extend(found.items);
-            spans.invalid += invalid;
-        })?;
+        let mut spans = Spans { spans: Vec::new(), objects: None, offsets: vec![0], invalid: 0 };
+        let how = How { threads, progress };
+        if by_object {
+            let mut objects = Vec::new();
+            let work = |range: std::ops::Range<usize>| {
+                let rays = rays.of(range);
+                (geometry.spans_by_object_batch(&rays), invalid(&rays))
+            };
+            run(py, rays.len(), how, work, |(found, invalid)| {
+                spans.take(&found.offsets, found.items.iter().map(|s| s.span), invalid);
+                objects.extend(found.items.iter().map(|s| i64::from(s.object.0)));
+            })?;
+            spans.objects = Some(objects);
+        } else {
+            let work = |range: std::ops::Range<usize>| {
+                let rays = rays.of(range);
+                (geometry.spans_batch(&rays), invalid(&rays))
+            };
+            run(py, rays.len(), how, work, |(found, invalid)| {
+                spans.take(&found.offsets, found.items.into_iter(), invalid);
+            })?;
+        }
         Ok(spans)
     })
 }

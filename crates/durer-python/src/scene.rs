@@ -26,6 +26,8 @@ pub(crate) struct Scene {
     data: SceneData,
     pub(crate) world: Arc<World>,
     warnings: Vec<String>,
+    /// The texts that it was read from.
+    files: Vec<PathBuf>,
 }
 
 /// What is without a look is light grey.
@@ -45,7 +47,7 @@ fn build(py: Python<'_>, data: SceneData, mut warnings: Vec<String>) -> PyResult
     let pool = pool(0)?;
     let world = py.detach(|| pool.install(|| World::new(&data))).map_err(value_error)?;
     warnings.extend(world.warnings().iter().map(|(_, text)| text.clone()));
-    Ok(Scene { data, world: Arc::new(world), warnings })
+    Ok(Scene { data, world: Arc::new(world), warnings, files: Vec::new() })
 }
 
 /// A scene of objects. Lights: location and colour.
@@ -91,7 +93,7 @@ fn load(
     if Format::of(&path).is_some() {
         let model = py.detach(|| durer::mesh::read(&path)).map_err(value_error)?;
         let warnings = model.warnings.iter().map(ToString::to_string).collect();
-        return build(py, model.into_scene(width, height), warnings);
+        return Ok(Scene { files: vec![path], ..build(py, model.into_scene(width, height), warnings)? });
     }
     let mut known = Limits::default();
     for (name, value) in limits {
@@ -117,7 +119,8 @@ fn load(
         durer::render::WorldError::Lower(e) => value_error(read.sources.error(e.place, e.to_string())),
         other => value_error(other),
     })?;
-    let mut scene = Scene { data: read.scene, world: Arc::new(world), warnings };
+    let files = read.sources.paths().map(Into::into).collect();
+    let mut scene = Scene { data: read.scene, world: Arc::new(world), warnings, files };
     for (place, text) in scene.world.warnings() {
         scene.warnings.push(read.sources.error(*place, format!("warning: {text}")).to_string());
     }
@@ -150,6 +153,12 @@ impl Scene {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
+    }
+
+    /// The texts that the scene was read from, in the order in which they were opened.
+    #[getter]
+    fn files(&self) -> Vec<PathBuf> {
+        self.files.clone()
     }
 
     /// The least and the greatest corner of a box around all that is bounded.

@@ -37,6 +37,7 @@ def test_executors_give_the_same_bits(pool):
     with pool(2) as client:
         for query in ("closest", "all", "spans"):
             same(getattr(distributed, query)(SCENE, rays, client=client, chunk=700), getattr(SCENE, query)(rays))
+        same(distributed.spans(SCENE, rays, client=client, by="object", chunk=700), SCENE.spans(rays, by="object"))
         assert np.array_equal(distributed.any(SCENE, rays, client=client, chunk=700), SCENE.any(rays))
         points = rays[:, 3:] + rays[:, :3]
         found = distributed.contains(SCENE, points, client=client, chunk=999)

@@ -136,6 +136,71 @@ def test_spans_merge_solids():
     assert spans.totals().tolist() == [4, 3, 0] and spans.ray.tolist() == [0, 0, 1, 1]
 
 
+def test_spans_by_object_overlap():
+    bodies = [durer.Sphere((0, 0, 0), 2), durer.Box((-1, -9, -9), (1, 9, 9)), durer.Plane((1, 0, 0), -4), durer.Disc((0, 0, 0), (1, 0, 0), 9)]
+    scene = durer.Scene(bodies)
+    spans = scene.spans([[-6, 0, 0], [0, 0, 0], [-6, 5, 0]], [[1, 0, 0]] * 3, by="object")
+    assert spans.offsets.tolist() == [0, 3, 5, 7]
+    assert spans.object.tolist() == [2, 0, 1, 0, 1, 2, 1]
+    assert spans.t_in.tolist() == [0, 4, 5, 0, 0, 0, 5] and spans.t_out.tolist() == [2, 8, 7, 2, 1, 2, 7]
+    assert spans.object_in.tolist() == [-1, 0, 1, -1, -1, -1, 1] and spans.object_out.tolist() == [2, 0, 1, 0, 1, 2, 1]
+    back = pickle.loads(pickle.dumps(spans))
+    assert type(back) is durer.ObjectSpans and back.to_structured().dtype == spans.to_structured().dtype
+    rays = np.hstack(some_rays(2000))
+    spans = scene.spans(rays, by="object")
+    for i, body in enumerate(bodies):
+        alone = durer.Scene([body]).spans(rays)
+        for name in ("offsets", "t_in", "t_out"):
+            assert np.array_equal(spans.of(i)[name], alone[name])
+    with pytest.raises(ValueError, match="by: None or 'object'"):
+        scene.spans(rays, by="solid")  # type: ignore[call-overload]
+
+
+def box_mesh(divided=1):
+    """The cube from -1 to 1, each side of so many squares."""
+    n = divided
+    points, faces = {}, []
+    for axis in range(3):
+        for side in (-1, 1):
+            for i in range(n):
+                for j in range(n):
+                    corners = []
+                    for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        p = [0.0, 0.0, 0.0]
+                        p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, 2 * (i + a) / n - 1, 2 * (j + b) / n - 1
+                        corners.append(points.setdefault(tuple(p), len(points)))
+                    quad = corners if side > 0 else corners[::-1]
+                    faces += [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+    return durer.Mesh(list(points), faces)
+
+
+@pytest.mark.parametrize("divided", [1, 2, 5])
+def test_rays_along_the_outline_of_a_mesh_touch_it_once(divided):
+    mesh = box_mesh(divided)
+    assert mesh.is_solid
+    moved = mesh.placed([[0, 0, 2, 3], [2, 0, 0, 5], [0, 2, 0, 7]])
+    for axis in range(3):
+        for sense in (1, -1):
+            for x, y in [(1, 0.25), (-1, 0.4), (0.3, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (0, 0), (0.5, 0.5), (1.1, 0)]:
+                o, d = np.zeros(3), np.zeros(3)
+                o[axis], o[(axis + 1) % 3], o[(axis + 2) % 3], d[axis] = -5 * sense, x, y, sense
+                for body, map in ((mesh, np.eye(3, 4)), (moved, np.array([[0, 0, 2, 3], [2, 0, 0, 5], [0, 2, 0, 7.0]]))):
+                    scene = durer.Scene([body])
+                    ray = [np.concatenate([map[:, :3] @ o + map[:, 3], map[:, :3] @ d])]
+                    every, first, hit = scene.all(ray), scene.closest(ray), scene.any(ray)[0]
+                    assert first.t[0] == (every.t[0] if len(every) else np.inf) and hit == (len(every) > 0)
+                    if max(abs(x), abs(y)) > 1:
+                        assert len(every) == 0
+                    elif max(abs(x), abs(y)) == 1:
+                        assert every.t.tolist() == [4] and every.sign.tolist() == [0] and every.kind.tolist() == [1]
+                        assert first.kind.tolist() == [1] and len(scene.spans(ray)) == 0 and every.crossings().tolist() == [0]
+                        at = map[:, :3] @ (o + 4 * d) + map[:, 3]
+                        assert np.abs(every.position[0] - at).max() < 1e-13
+                    else:
+                        assert every.t.tolist() == [4, 6] and every.sign.tolist() == [-1, 1]
+                        assert scene.spans(ray).totals().tolist() == [2]
+
+
 def test_results_convert():
     pandas = pytest.importorskip("pandas")
     hits = SCENE.all([[-5, 0, 0]], [[1, 0, 0]])
@@ -168,6 +233,20 @@ def test_scenes_pickle_and_copy():
     assert np.array_equal(back.closest(origins, directions).t, scene.closest(origins, directions).t)
     assert np.array_equal(durer.render(back), durer.render(scene))
     assert copy.deepcopy(scene) is scene
+
+
+def test_a_pickled_scene_of_changed_files_is_refused(tmp_path):
+    part = tmp_path / "part.inc"
+    part.write_text("sphere { 0, 1 }")
+    file = tmp_path / "scene.pov"
+    file.write_text('#include "part.inc"')
+    scene = durer.load(file)
+    pickled = pickle.dumps(scene)
+    assert pickle.loads(pickled).closest([[0, 0, -5]], [[0, 0, 1]]).t.tolist() == [4.0]
+    assert pickle.dumps(pickle.loads(pickled)) == pickled
+    part.write_text("sphere { 0, 2 }")
+    with pytest.raises(ValueError, match="a file has changed"):
+        pickle.loads(pickled)
 
 
 def test_nothing_can_be_changed():

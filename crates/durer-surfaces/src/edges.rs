@@ -10,14 +10,15 @@
 
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};
+use core::cmp::Ordering;
 use durer_math::{EFloat, EdgeRay, Isa, Point3, Ring, U, Vec3};
 
 /// `U` for the edge from `a` to `b`.
-struct EdgeForm {
-    a: Point3,
-    b: Point3,
-    centre: Point3,
-    scale: i32,
+pub(crate) struct EdgeForm {
+    pub(crate) a: Point3,
+    pub(crate) b: Point3,
+    pub(crate) centre: Point3,
+    pub(crate) scale: i32,
 }
 
 impl AlongRay for EdgeForm {
@@ -30,10 +31,10 @@ impl AlongRay for EdgeForm {
 }
 
 /// `((b - a) x d)_axis`.
-struct MinorForm {
-    a: Point3,
-    b: Point3,
-    axis: usize,
+pub(crate) struct MinorForm {
+    pub(crate) a: Point3,
+    pub(crate) b: Point3,
+    pub(crate) axis: usize,
 }
 
 impl AlongRay for MinorForm {
@@ -82,6 +83,25 @@ pub(crate) fn exact_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<i8> 
                 }
             }
             Some(0)
+        },
+    )
+}
+
+/// The sign of `U` for the edge from `a` to `b`, zero if the ray meets the edge's line; `None` only
+/// if the ray is not exactly known.
+#[cold]
+#[inline(never)]
+pub(crate) fn undisplaced_side<L: Line>(line: &L, a: Point3, b: Point3) -> Option<Ordering> {
+    Isa::detect().run(
+        #[inline(always)]
+        || {
+            if let Some((o, d)) = line.given() {
+                let edge = EdgeRay::new(o, d).edge(a, b);
+                let is_zero = edge.value == 0.0 && edge.error == 0.0;
+                return Some(if is_zero { Ordering::Equal } else { edge.sign.cmp(&0) });
+            }
+            let (centre, scale) = line.view();
+            line.sign(&EdgeForm { a, b, centre, scale })
         },
     )
 }

@@ -41,7 +41,13 @@ pub(crate) fn is_degenerate(v: &Facet) -> bool {
 /// about the ray's range.
 #[inline(always)]
 pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(Crossing, [f64; 2])> {
-    let Passed { values, bound, .. } = passes(probe, filter, v)?;
+    hit_of(probe, v, &passes(probe, filter, v)?)
+}
+
+/// [`hit`] for a ray that is known to pass all edges on one side.
+#[inline(always)]
+pub(crate) fn hit_of(probe: &Probe<'_>, v: &Facet, passed: &Passed) -> Option<(Crossing, [f64; 2])> {
+    let Passed { values, bound, .. } = *passed;
     let crossing = probe.crossing(&plane(probe, v))?;
     let sum = values[0] + values[1] + values[2];
     let tag = if bound < sum.abs() * TAG {
@@ -68,9 +74,7 @@ pub(crate) struct Passed {
 /// Whether a line passes all edges on one side.
 #[inline(always)]
 pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Option<Passed> {
-    let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
-    let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
-    let values = [filter.side(b, c), filter.side(c, a), filter.side(a, b)];
+    let (values, bound) = volumes_within(filter, v);
     let least = values[0].min(values[1]).min(values[2]);
     let most = values[0].max(values[1]).max(values[2]);
     if least < -bound && most > bound {
@@ -84,6 +88,70 @@ pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Optio
         common_side(line, v, values, bound)?
     };
     Some(Passed { values, bound, side })
+}
+
+/// How a line meets a closed triangle.
+pub(crate) enum Contact {
+    /// Not at all.
+    Apart,
+    /// Within: it passes all edges on one side. So does an inexact line that leaves it open.
+    Inside(Passed),
+    /// On the border, or it is in one plane with the triangle: the sides of the edges opposite to
+    /// the vertices, zero where the line meets the edge's line. The others agree.
+    Border([i8; 3]),
+}
+
+/// How a line meets a triangle, without the displacement by which [`passes`] decides ties.
+#[inline(always)]
+pub(crate) fn contact<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Contact {
+    let (values, bound) = volumes_within(filter, v);
+    let least = values[0].min(values[1]).min(values[2]);
+    let most = values[0].max(values[1]).max(values[2]);
+    if least < -bound && most > bound {
+        Contact::Apart
+    } else if least > bound {
+        Contact::Inside(Passed { values, bound, side: 1 })
+    } else if most < -bound {
+        Contact::Inside(Passed { values, bound, side: -1 })
+    } else {
+        exact_contact(line, v, values, bound)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn exact_contact<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Contact {
+    let mut sides = [0_i8; 3];
+    for (i, value) in values.into_iter().enumerate() {
+        sides[i] = if value > bound {
+            1
+        } else if value < -bound {
+            -1
+        } else {
+            match edges::undisplaced_side(line, v[(i + 1) % 3], v[(i + 2) % 3]) {
+                Some(side) => side as i8,
+                None => {
+                    let side = common_side(line, v, values, bound);
+                    return side
+                        .map_or(Contact::Apart, |side| Contact::Inside(Passed { values, bound, side }));
+                }
+            }
+        };
+    }
+    let has = |side: i8| sides.contains(&side);
+    match (has(-1), has(0), has(1)) {
+        (true, _, true) => Contact::Apart,
+        (_, true, _) => Contact::Border(sides),
+        _ => Contact::Inside(Passed { values, bound, side: sides[0] }),
+    }
+}
+
+/// `U`, `V`, `W` in f64, and a bound on their errors.
+#[inline(always)]
+fn volumes_within(filter: &EdgeFilter, v: &Facet) -> ([f64; 3], f64) {
+    let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
+    let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
+    ([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound)
 }
 
 /// The one sign of all three, exactly, where the filter left some open.
@@ -165,10 +233,8 @@ fn barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
 /// The same in f64, if no error is above `tight`.
 #[inline(always)]
 fn barycentric_within(probe: &Probe<'_>, v: &Facet, tight: f64) -> Option<[EFloat; 2]> {
-    let filter = EdgeFilter::new(probe);
-    let (a, b, c) = (filter.seen(v[0]), filter.seen(v[1]), filter.seen(v[2]));
-    let bound = filter.bound(a.max_abs().max(b.max_abs()).max(c.max_abs()));
-    quotients_within([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound, tight)
+    let (values, bound) = volumes_within(&EdgeFilter::new(probe), v);
+    quotients_within(values, bound, tight)
 }
 
 /// `V` and `W` over `U + V + W`, where that is tight; each volume errs by at most `bound`.
@@ -267,6 +333,13 @@ pub(crate) fn resolve_far(probe: &Probe<'_>, v: &Facet, varying: &Varying, need:
     let tight = planar::TIGHT * (v[0].to_vec().max_abs() / edge).clamp(1.0, 1e6);
     let quick = barycentric_within(probe, v, tight);
     resolve_from(quick.unwrap_or_else(|| exact_barycentric(probe, v)), v, varying, need)
+}
+
+/// [`resolve`] for coordinates `(b1, b2)` on the triangle's border that are known within a few
+/// roundings more than [`planar::TIGHT`].
+#[inline(always)]
+pub(crate) fn resolve_at(b: [f64; 2], v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
+    resolve_from(b.map(|b| EFloat::with_error(b, 2.0 * planar::TIGHT)), v, varying, need)
 }
 
 #[inline(always)]

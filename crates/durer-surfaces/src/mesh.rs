@@ -1,22 +1,30 @@
 //! The mesh: triangles that share vertices.
 //!
 //! Every face is met by the rule of `edges.rs` on *one* ray for the whole mesh, so a ray through a
-//! shared edge or vertex meets exactly one of the faces there (or none, or two, at a silhouette),
-//! and a closed mesh is crossed an even number of times. A mesh may be declared solid: a point is
-//! inside if a ray from it crosses the faces an odd number of times (J. Arvo, D. Kirk, "A survey of
-//! ray tracing acceleration techniques", in A. Glassner (ed.), *An Introduction to Ray Tracing*,
-//! 1989; the scene language's `inside_vector`).
+//! shared edge or vertex crosses exactly one of the faces there, and a closed mesh is crossed an
+//! even number of times. Where a ray meets an edge or a vertex and passes on without entering, it
+//! has one grazing root: see `contact.rs`. A mesh may be declared solid: a point is inside if a ray
+//! from it crosses the faces an odd number of times (J. Arvo, D. Kirk, "A survey of ray tracing
+//! acceleration techniques", in A. Glassner (ed.), *An Introduction to Ray Tracing*, 1989; the scene
+//! language's `inside_vector`).
 
+mod contact;
+mod fans;
+
+use self::contact::{Contact, Report};
+use self::fans::LazyFans;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::packet::FilterSource;
-use crate::planar::{self, PointLine, Probe, ThreePoints};
+use crate::planar::{self, Crossing, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::swift::{self, Swift};
-use crate::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Flow, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Normal3, Point3, Vec3};
+use durer_math::{Aabb, Isa, Normal3, Point3, Vec3};
 
 /// The data of a mesh: lists of numbers, and indices into them.
 ///
@@ -68,6 +76,7 @@ pub struct Mesh {
     bounds: Aabb,
     /// If the mesh is solid: the direction of the ray that decides whether a point is inside.
     inside: Option<Vec3>,
+    fans: LazyFans,
 }
 
 /// Why a [`Mesh`] cannot exist.
@@ -125,7 +134,8 @@ impl Mesh {
         if !data.uv.is_empty() || !data.uv_faces.is_empty() {
             check_indices("uv", uv_faces(&data), data.uv.len())?;
         }
-        let mut mesh = Self { data, dropped: Vec::new(), bounds: Aabb::EMPTY, inside: None };
+        let (dropped, fans) = (Vec::new(), LazyFans::default());
+        let mut mesh = Self { data, dropped, bounds: Aabb::EMPTY, inside: None, fans };
         for number in 0..faces as u32 {
             let facet = mesh.facet(number);
             if facet.iter().all(|v| v.is_finite()) && !facet::is_degenerate(&facet) {
@@ -181,7 +191,12 @@ impl Mesh {
 
     fn live(&self) -> impl Iterator<Item = u32> {
         let all = 0..self.data.faces.len() as u32;
-        all.filter(|number| self.dropped.is_empty() || self.dropped.binary_search(number).is_err())
+        all.filter(|&number| self.is_live(number))
+    }
+
+    /// Whether a face is not dropped.
+    fn is_live(&self, number: u32) -> bool {
+        self.dropped.is_empty() || self.dropped.binary_search(&number).is_err()
     }
 
     #[inline(always)]
@@ -220,12 +235,53 @@ impl Mesh {
             Swift::Open => {}
         }
         let probe = Self::probe(ray, &facet);
-        let (crossing, tag) = facet::hit(&probe, &EdgeFilter::new(&probe), &facet)?;
-        let here = !crossing.is_outside(range)
-            && probe.may_admit(&crossing)
-            && probe.admits(&facet::plane(&probe, &facet), &crossing);
-        here.then(|| probe.root(&crossing, number, tag))
+        let filter = EdgeFilter::new(&probe);
+        let passed = match facet::contact(&probe, &filter, &facet) {
+            facet::Contact::Apart => return None,
+            facet::Contact::Inside(passed) => passed,
+            facet::Contact::Border(sides) => return self.border_root(number, &probe, sides, range),
+        };
+        let (crossing, tag) = facet::hit_of(&probe, &facet, &passed)?;
+        admitted(&probe, &facet::plane(&probe, &facet), &crossing, range)
+            .then(|| probe.root(&crossing, number, tag))
     }
+
+    /// The root of a face whose edges the ray passes on these sides, some of them zero.
+    #[cold]
+    #[inline(never)]
+    fn border_root(&self, number: u32, probe: &Probe<'_>, sides: [i8; 3], range: (f64, f64)) -> Option<Root> {
+        let facet = self.facet(number);
+        let crossed = Isa::detect().run(
+            #[inline(always)]
+            || facet::hit(probe, &EdgeFilter::new(probe), &facet),
+        );
+        let contact = Contact { mesh: self, fans: self.fans.of(&self.data), probe };
+        match contact.report(number, sides, crossed.is_some()) {
+            Some(Report::Nothing) => return None,
+            Some(Report::Touch(site)) => {
+                if let (Some((crossing, plane)), Some(tag)) =
+                    (contact.crossing(site), contact.coordinates(number, site))
+                {
+                    return admitted(probe, &plane, &crossing, range).then(|| Root {
+                        sign: 0,
+                        kind: RootKind::Grazing,
+                        ..probe.root(&crossing, number, tag)
+                    });
+                }
+            }
+            // An inexact ray for which the rule cannot be decided is a displaced one.
+            Some(Report::Crossing) | None => {}
+        }
+        let (crossing, tag) = crossed?;
+        admitted(probe, &facet::plane(probe, &facet), &crossing, range)
+            .then(|| probe.root(&crossing, number, tag))
+    }
+}
+
+/// Whether a crossing is in the ray's range and may be in the sink's.
+#[inline(always)]
+fn admitted<F: PlaneForm>(probe: &Probe<'_>, plane: &F, crossing: &Crossing, range: (f64, f64)) -> bool {
+    !crossing.is_outside(range) && probe.may_admit(crossing) && probe.admits(plane, crossing)
 }
 
 #[inline(always)]
@@ -345,6 +401,9 @@ impl Surface for Mesh {
             uv: (!data.uv.is_empty()).then(|| corners(uv_faces(data)).map(|i| data.uv[i])),
         };
         let facet = self.facet(root.face);
+        if root.kind == RootKind::Grazing {
+            return facet::resolve_at(root.tag, &facet, &varying, need);
+        }
         facet::resolve(&Self::probe(ray, &facet), &facet, &varying, need)
     }
 
@@ -418,155 +477,4 @@ impl Surface for Mesh {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::laws::{TestRng, all_roots};
-    use durer_math::Ray;
-
-    /// The octahedron, its faces divided into `k * k` triangles with integer coordinates: flat
-    /// faces, and many vertices and edges.
-    fn octahedron(k: i32) -> Mesh {
-        let mut data = MeshData::default();
-        let find = |p: [i32; 3], vertices: &mut Vec<Point3>| {
-            let p = Point3::from(p.map(f64::from));
-            let known = vertices.iter().position(|q| *q == p);
-            known.unwrap_or_else(|| {
-                vertices.push(p);
-                vertices.len() - 1
-            }) as u32
-        };
-        for octant in 0..8 {
-            let s = [0, 1, 2].map(|i| if octant >> i & 1 == 0 { 1 } else { -1 });
-            let mirrored = s[0] * s[1] * s[2] < 0;
-            for i in 0..k {
-                for j in 0..k - i {
-                    let mut corner =
-                        |i: i32, j: i32| find([s[0] * (k - i - j), s[1] * i, s[2] * j], &mut data.vertices);
-                    let mut faces = vec![[corner(i, j), corner(i + 1, j), corner(i, j + 1)]];
-                    if i + j + 1 < k {
-                        faces.push([corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)]);
-                    }
-                    for [a, b, c] in faces {
-                        data.faces.push(if mirrored { [a, c, b] } else { [a, b, c] });
-                    }
-                }
-            }
-        }
-        Mesh::new(data).unwrap()
-    }
-
-    #[test]
-    fn a_closed_mesh_is_crossed_an_even_number_of_times() {
-        let mesh = octahedron(4);
-        assert!(mesh.is_closed());
-        let mut dice = TestRng::new(1);
-        let (mut crossed, mut through_vertices) = (0, 0);
-        for _ in 0..6000 {
-            // Integers: through vertices, along edges, within faces.
-            let target =
-                if dice.once_in(2) { dice.lattice(4).to_point() } else { dice.pick(&mesh.data.vertices) };
-            let direction = dice.lattice(3);
-            let back = dice.pick(&[7.0, 1000.0, 1048577.0]);
-            let ray =
-                Ray::new(target - direction * back, direction).with_range(f64::NEG_INFINITY, f64::INFINITY);
-            let roots = all_roots(&mesh, &ray);
-            assert!(roots.len().is_multiple_of(2), "{roots:?} for {ray:?}");
-            assert!(roots.len() <= 4, "a convex solid: {roots:?} for {ray:?}");
-            // Entered and left in turn; a vertex at a silhouette is entered and left at one place.
-            let turns: i32 = roots.iter().map(|r| i32::from(r.sign)).sum();
-            assert_eq!(turns, 0, "{roots:?} for {ray:?}");
-            let far = roots.iter().map(|r| r.t).fold(f64::NEG_INFINITY, f64::max);
-            let near = roots.iter().map(|r| r.t).fold(f64::INFINITY, f64::min);
-            if near < far {
-                crossed += 1;
-                let inner = roots.iter().filter(|r| r.lo > near && r.hi < far).count();
-                assert_eq!(inner, 0, "{roots:?} for {ray:?}");
-            }
-            through_vertices += usize::from(mesh.data.vertices.contains(&target) && !roots.is_empty());
-        }
-        assert!(crossed > 2000 && through_vertices > 1000, "{crossed} {through_vertices}");
-    }
-
-    #[test]
-    fn no_ray_from_inside_escapes() {
-        let mesh = octahedron(3);
-        let mut dice = TestRng::new(2);
-        for _ in 0..4000 {
-            let from = Point3::from((dice.lattice(2) * 0.5 * dice.pick(&[0.5, 1.0])).to_array());
-            if from.x.abs() + from.y.abs() + from.z.abs() >= 3.0 {
-                continue;
-            }
-            let at = dice.pick(&mesh.data.vertices);
-            let direction = if dice.once_in(3) { dice.vector() } else { at - from };
-            let roots = all_roots(&mesh, &Ray::new(from, direction));
-            assert_eq!(roots.len(), 1, "from {from:?} along {direction:?}: {roots:?}");
-        }
-    }
-
-    #[test]
-    fn the_sides_of_a_solid_mesh_are_exact() {
-        let sheet = octahedron(3);
-        assert_eq!(sheet.solidity(), Solidity::Open);
-        let solids = [Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.3, -0.2, 0.9)]
-            .map(|d| sheet.clone().solid(d).unwrap());
-        let mut dice = TestRng::new(3);
-        let mut told = [0; 3];
-        for _ in 0..2000 {
-            let p = dice.lattice(4) * 0.5;
-            let p = Point3::new(if dice.once_in(2) { dice.nudge(p.x, 1) } else { p.x }, p.y, p.z);
-            let sum = crate::laws::Exact::from(p.x.abs());
-            let sum = &(&sum + &p.y.abs().into()) + &p.z.abs().into();
-            let expected = match (&sum - &3.0.into()).sign() {
-                Ordering::Less => Side::In,
-                Ordering::Equal => Side::On,
-                Ordering::Greater => Side::Out,
-            };
-            for solid in &solids {
-                assert_eq!(solid.side(&LocalPoint::new(p)), expected, "{p:?}");
-            }
-            told[expected as usize] += 1;
-        }
-        assert!(told.iter().all(|&n| n > 100), "{told:?}");
-    }
-
-    #[test]
-    fn parts_together_are_the_whole() {
-        let mesh = octahedron(2);
-        let mut dice = TestRng::new(4);
-        for _ in 0..500 {
-            let ray = Ray::new(dice.lattice(5).to_point(), dice.lattice(3));
-            let mut sink = crate::All::default();
-            mesh.parts(&mut |bounds, part| {
-                let before = sink.roots.len();
-                mesh.part_roots(part, &LocalRay::new(&ray), &mut sink);
-                for root in &sink.roots[before..] {
-                    let p = mesh.resolve(&LocalRay::new(&ray), root, Need::POINT);
-                    assert_eq!(root.face, part.0);
-                    assert!(bounds.expanded(p.dp).contains(p.p));
-                }
-            });
-            sink.roots.sort_by(Root::order);
-            assert_eq!(sink.roots, all_roots(&mesh, &ray));
-        }
-    }
-
-    #[test]
-    fn dropped_faces_keep_their_numbers() {
-        let v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]];
-        let mesh = Mesh::new(MeshData {
-            vertices: v.map(Point3::from).to_vec(),
-            faces: vec![[0, 1, 3], [0, 0, 2], [0, 1, 4], [0, 1, 2]],
-            ..MeshData::default()
-        })
-        .unwrap();
-        assert_eq!(mesh.dropped(), [0, 1, 2]);
-        let down = Ray::new(Point3::new(0.25, 0.25, 1.0), -Vec3::Z);
-        assert_eq!(all_roots(&mesh, &down).iter().map(|r| r.face).collect::<Vec<_>>(), [3]);
-    }
-
-    #[test]
-    fn a_bad_index_is_named() {
-        let data = MeshData { vertices: vec![Point3::ORIGIN], faces: vec![[0, 0, 1]], ..MeshData::default() };
-        assert_eq!(Mesh::new(data), Err(MeshError::Index { what: "vertex", face: 0, index: 1, len: 1 }));
-    }
-}
+mod tests;

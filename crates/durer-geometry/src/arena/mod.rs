@@ -390,7 +390,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                 };
                 slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });
                 if slot.whole && !tracks.tell_from(before) {
-                    tracks.start(slot.index as u32, starts_inside(slot.surface, ray, start));
+                    tracks.start(slot.index as u32, name, starts_inside(slot.surface, ray, start));
                 }
             }
             Flow::Continue
@@ -399,7 +399,8 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
 
     fn start_of(&self, surface: u32, ray: &LocalRay<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {
         if self.ids.admits(surface as usize, tracks.filter().mask) {
-            tracks.start(surface, starts_inside(&self.surfaces[surface as usize], ray, start));
+            let inside = starts_inside(&self.surfaces[surface as usize], ray, start);
+            tracks.start(surface, self.ids.name(surface as usize), inside);
         }
     }
 

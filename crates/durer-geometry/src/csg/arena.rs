@@ -166,7 +166,7 @@ impl AnyArena for Compounds {
                 Flow::Continue
             });
             if tracks.len() == before {
-                tracks.start(body as u32, inside);
+                tracks.start(body as u32, self.ids.name(body), inside);
             }
         }
     }

@@ -18,70 +18,63 @@ pictures. Submodules: `durer.trimesh` and `durer.open3d` stand in for the ray cl
 from __future__ import annotations
 
 from . import _native
-from ._camera import Camera
-from ._formula import Expression, Formula, Parametric, formula, parametric, where
-from ._objects import (
-    BezierPatch,
-    Blob,
+from ._basic import (
     Box,
-    Clipped,
-    Complement,
     Cone,
     Cyclide,
     Cylinder,
-    Deformed,
-    Difference,
     Disc,
     Ellipsoid,
     EllipticCone,
     EllipticCylinder,
     EllipticParaboloid,
-    HeightField,
     HyperbolicCylinder,
     HyperbolicParaboloid,
     HyperboloidOneSheet,
     HyperboloidTwoSheets,
-    Intersection,
-    Ifs,
-    Julia,
-    Lathe,
-    Lemon,
-    Merge,
-    Menger,
-    Mesh,
-    Nurbs,
-    Object,
-    Ovus,
     ParabolicCylinder,
     Parallelogram,
-    Placed,
     Plane,
     Polygon,
     Polynomial,
-    Prism,
     Quadric,
-    Sewn,
-    Sierpinski,
     Sphere,
-    SphereSweep,
-    SphericalSector,
-    Subdivision,
-    Superellipsoid,
-    SurfaceOfRevolution,
-    Sweep,
-    Terrain,
-    Texture,
-    Textured,
     Torus,
     Triangle,
-    TriangularPatch,
+)
+from ._camera import Camera
+from ._fields import Blob, Ifs, Julia, Menger, Sierpinski, Superellipsoid
+from ._formula import Expression, Formula, Parametric, formula, parametric, where
+from ._mesh import Mesh, read_mesh
+from ._objects import (
+    Clipped,
+    Complement,
+    Deformed,
+    Difference,
+    Intersection,
+    Merge,
+    Object,
+    Placed,
+    Texture,
+    Textured,
     Union,
     WithoutCaps,
-    read_mesh,
     rotation,
 )
+from ._patches import BezierPatch, Nurbs, Sewn, Subdivision, TriangularPatch
+from ._sheets import HeightField, Terrain
+from ._swept import (
+    Lathe,
+    Lemon,
+    Ovus,
+    Prism,
+    SphereSweep,
+    SphericalSector,
+    SurfaceOfRevolution,
+    Sweep,
+)
 from ._render import Picture, bound_image, depth_image, normal_image, object_image, render
-from ._results import AllHits, Hits, Spans
+from ._results import AllHits, Hits, ObjectSpans, Spans
 from ._scene import Light, Scene, load
 from ._science import (
     Chords,
@@ -149,6 +142,7 @@ __all__ = [
     "Nurbs",
     "Object",
     "object_image",
+    "ObjectSpans",
     "overlaps",
     "Ovus",
     "ParabolicCylinder",
@@ -168,8 +162,8 @@ __all__ = [
     "rotation",
     "Scan",
     "Scene",
-    "Spans",
     "Sewn",
+    "Spans",
     "Sierpinski",
     "Sphere",
     "SphereSweep",

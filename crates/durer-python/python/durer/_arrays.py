@@ -48,6 +48,11 @@ def table(value: npt.ArrayLike, columns: int, name: str) -> Floats:
     return array
 
 
+def row_tuples(value: npt.ArrayLike, columns: int, name: str) -> tuple[tuple[float, ...], ...]:
+    """An array of shape (n, columns) as tuples, which are compared and pickled as they are."""
+    return tuple(tuple(row) for row in table(value, columns, name).tolist())
+
+
 def index_table(value: npt.ArrayLike, name: str) -> Ints:
     """An array of whole numbers of shape (n, 3)."""
     array = np.asarray(value)

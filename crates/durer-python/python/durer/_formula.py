@@ -21,6 +21,14 @@ class Expression:
 
     Python's operators, `abs`, `min` and `max` by this module's functions of these names, and NumPy's functions of one or
     two numbers (`np.sin`, `np.sqrt`, `np.minimum` ...) work on it. It has no truth value: use `durer.where(a, b, c)`.
+
+    Examples
+    --------
+    >>> import durer
+    >>> seen = []
+    >>> ball = durer.formula(lambda x, y, z: seen.append(x) or x * x + y * y + z * z - 1, ball=((0, 0, 0), 2))
+    >>> type(seen[0])
+    <class 'durer._formula.Expression'>
     """
 
     __slots__ = ("_tape", "_index")
@@ -314,6 +322,12 @@ class Formula(Object):
     """The surface where a function of x, y and z is zero; its inside is where the function is negative.
 
     Made by :func:`durer.formula`.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.formula("x*x + y*y + z*z - 1", ball=((0, 0, 0), 2))
+    formula('x*x + y*y + z*z - 1', ball=((0.0, 0.0, 0.0), 2.0))
     """
 
     __slots__ = ()

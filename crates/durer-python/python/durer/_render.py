@@ -19,6 +19,13 @@ class Picture(np.ndarray[Any, np.dtype[np.float64]]):
     """A picture: an array (height, width, 3) of light, red, green and blue, row 0 at the top, that notebooks show.
 
     It is made by `durer.render` and is an ordinary NumPy array otherwise.
+
+    Examples
+    --------
+    >>> import durer
+    >>> picture = durer.render(durer.Scene([durer.Sphere((0, 0, 0), 1)]), durer.Camera((0, 0, 5), (0, 0, 0), width=8, height=6))
+    >>> picture.shape, picture.dtype
+    ((6, 8, 3), dtype('float64'))
     """
 
     def to_bytes(self) -> npt.NDArray[np.uint8]:
@@ -162,19 +169,40 @@ def depth_image(scene: Scene, camera: Camera | None = None, *, threads: int | No
 
 
 def normal_image(scene: Scene, camera: Camera | None = None, *, threads: int | None = None) -> Floats:
-    """The unit normal of the first hit through each pixel, (height, width, 3); NaN where nothing is."""
+    """The unit normal of the first hit through each pixel, (height, width, 3); NaN where nothing is.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.normal_image(durer.Scene([durer.Sphere((0, 0, 0), 1)]), durer.Camera((0, 0, 5), (0, 0, 0), width=8, height=6)).shape
+    (6, 8, 3)
+    """
     hits, size = _image(scene, camera, threads)
     return hits.normal.reshape(*size, 3)
 
 
 def object_image(scene: Scene, camera: Camera | None = None, *, threads: int | None = None) -> Ints:
-    """The number of the object seen through each pixel, (height, width); -1 where nothing is."""
+    """The number of the object seen through each pixel, (height, width); -1 where nothing is.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.object_image(durer.Scene([durer.Sphere((0, 0, 0), 1)]), durer.Camera((0, 0, 5), (0, 0, 0), width=5, height=1)).tolist()
+    [[-1, -1, 0, -1, -1]]
+    """
     hits, size = _image(scene, camera, threads)
     return hits.object.reshape(size)
 
 
 def bound_image(scene: Scene, camera: Camera | None = None, *, threads: int | None = None) -> Floats:
-    """How far the exact t of the first hit can be from the given one, (height, width); NaN where nothing is."""
+    """How far the exact t of the first hit can be from the given one, (height, width); NaN where nothing is.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.bound_image(durer.Scene([durer.Sphere((0, 0, 0), 1)]), durer.Camera((0, 0, 5), (0, 0, 0), width=5, height=1))[0, 2] < 1e-13
+    np.True_
+    """
     hits, size = _image(scene, camera, threads)
     with np.errstate(invalid="ignore"):
         width: Floats = np.maximum(hits.t - hits.t_lo, hits.t_hi - hits.t)

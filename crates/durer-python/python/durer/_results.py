@@ -253,11 +253,15 @@ class AllHits(_HitColumns):
         """How many hits each ray has. int64, (rays,)."""
         return np.diff(self.offsets)
 
+    def crossings(self) -> Ints:
+        """How many times each ray passes from one side of a surface to the other: touches do not count. int64, (rays,)."""
+        before = np.concatenate([[0], np.cumsum(self.sign != 0)]).astype(np.int64)
+        return np.diff(before[self.offsets])
+
     def __repr__(self) -> str:
         return f"<AllHits of {self._native.ray_count} rays: {len(self)} hits>"
 
 
-@final
 class Spans(_Columns):
     """Where rays are inside solids: those of ray i are the rows ``offsets[i]:offsets[i + 1]``, ascending and apart.
 
@@ -273,7 +277,7 @@ class Spans(_Columns):
     """
 
     __slots__ = ("_cache", "_invalid")
-    _names = ("offsets", "t_in", "t_out", "object_in", "object_out")
+    _names: tuple[str, ...] = ("offsets", "t_in", "t_out", "object_in", "object_out")
     _cache: dict[str, npt.NDArray[Any]]
     _invalid: int
 
@@ -331,7 +335,40 @@ class Spans(_Columns):
         return len(self.t_in)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Spans, (self.to_dict(), self._invalid))
+        return (type(self), (self.to_dict(), self._invalid))
 
     def __repr__(self) -> str:
-        return f"<Spans of {len(self.offsets) - 1} rays: {len(self)} spans>"
+        return f"<{type(self).__name__} of {len(self.offsets) - 1} rays: {len(self)} spans>"
+
+
+@final
+class ObjectSpans(Spans):
+    """Where rays are inside each object: `Spans` whose rows each belong to one `object`, ascending by t_in, then by object.
+
+    Where objects overlap, each has its own row.
+
+    Examples
+    --------
+    >>> import durer
+    >>> scene = durer.Scene([durer.Sphere((0, 0, 0), 2), durer.Sphere((0, 0, 0), 1)])
+    >>> spans = scene.spans([[0, 0, -5]], [[0, 0, 1]], by="object")
+    >>> spans.object, spans.t_in, spans.t_out
+    (array([0, 1]), array([3., 4.]), array([7., 6.]))
+    >>> spans.of(1).lengths
+    array([2.])
+    """
+
+    __slots__ = ()
+    _names = ("offsets", "object", "t_in", "t_out", "object_in", "object_out")
+
+    @property
+    def object(self) -> Ints:
+        """The object that the ray is in. int64, (n,)."""
+        return self._cache["object"]
+
+    def of(self, number: int) -> Spans:
+        """The spans inside the object with this number."""
+        own = self.object == number
+        arrays = {name: self._cache[name][own] for name in Spans._names if name != "offsets"}
+        before = np.concatenate([[0], np.cumsum(own)]).astype(np.int64)
+        return Spans({"offsets": before[self.offsets], **arrays}, self._invalid)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, final
+from typing import Any, Literal, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +15,7 @@ from ._arrays import Bools, Floats, Ints, Progress, Vector, rays, table, thread_
 from ._camera import Camera
 from ._objects import Object
 from ._native import Scene as NativeScene
-from ._results import AllHits, Hits, Spans
+from ._results import AllHits, Hits, ObjectSpans, Spans
 
 Watch = bool | Callable[[int, int], object]
 
@@ -260,19 +261,69 @@ class Scene:
         native, count = self._query(_native.all, origins, directions, t_min, t_max, threads, progress)
         return AllHits(native, count)
 
+    @overload
     def spans(
         self,
         origins: npt.ArrayLike,
         directions: npt.ArrayLike | None = None,
         *,
+        by: None = None,
+        t_min: npt.ArrayLike | None = None,
+        t_max: npt.ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Watch = False,
+    ) -> Spans: ...
+    @overload
+    def spans(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike | None = None,
+        *,
+        by: Literal["object"],
+        t_min: npt.ArrayLike | None = None,
+        t_max: npt.ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Watch = False,
+    ) -> ObjectSpans: ...
+    def spans(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike | None = None,
+        *,
+        by: Literal["object"] | None = None,
         t_min: npt.ArrayLike | None = None,
         t_max: npt.ArrayLike | None = None,
         threads: int | None = None,
         progress: Watch = False,
     ) -> Spans:
-        """Where each ray is inside the union of all solids; open surfaces do not count. Arguments are those of `closest`."""
-        native, _ = self._query(_native.spans, origins, directions, t_min, t_max, threads, progress)
-        return Spans({name: getattr(native, name)() for name in Spans._names}, native.invalid)
+        """Where each ray is inside solids; open surfaces do not count. Other arguments are those of `closest`.
+
+        Parameters
+        ----------
+        by : "object", optional
+            By default the answer is about the union of all solids. By object, each has its own spans, also where objects
+            overlap: which solid a ray is in, from where to where.
+
+        Returns
+        -------
+        Spans, or ObjectSpans by object
+
+        Examples
+        --------
+        >>> import durer
+        >>> scene = durer.Scene([durer.Sphere((0, 0, 0), 1), durer.Sphere((1, 0, 0), 1)])
+        >>> scene.spans([[-5, 0, 0]], [[1, 0, 0]]).lengths, scene.spans([[-5, 0, 0]], [[1, 0, 0]], by="object").lengths
+        (array([3.]), array([2., 2.]))
+        """
+        if by not in (None, "object"):
+            raise ValueError(f"by: None or 'object' is needed, got {by!r}")
+        kind = Spans if by is None else ObjectSpans
+
+        def ask(native: Any, start: Any, along: Any, ranges: Any, count: int, watch: Any) -> Any:
+            return _native.spans(native, start, along, ranges, by is not None, count, watch)
+
+        native, _ = self._query(ask, origins, directions, t_min, t_max, threads, progress)
+        return kind({name: getattr(native, name)() for name in kind._names}, native.invalid)
 
     def contains(
         self, points: npt.ArrayLike, *, threads: int | None = None, progress: Watch = False
@@ -341,10 +392,19 @@ class Scene:
         return Camera(centre - along * distance, centre, up, float(angle), width, height)
 
 
+def _digest(files: Iterable[str | os.PathLike[str]]) -> str:
+    """A hash of the contents of files."""
+    digest = hashlib.sha256()
+    for file in files:
+        with open(file, "rb") as content:
+            digest.update(hashlib.sha256(content.read()).digest())
+    return digest.hexdigest()
+
+
 def _rebuilt(kind: str, *recipe: Any) -> Scene:
     if kind == "file":
-        path, (width, height, library, declares, clock, limits) = recipe
-        return load(
+        path, (width, height, library, declares, clock, limits), digest = recipe
+        scene = load(
             path,
             width=width,
             height=height,
@@ -353,6 +413,9 @@ def _rebuilt(kind: str, *recipe: Any) -> Scene:
             clock=clock,
             limits=dict(limits),
         )
+        if scene._recipe[3] != digest:
+            raise ValueError(f"the scene {path!r} is another one than the one that was pickled: a file has changed")
+        return scene
     parts, camera, lamps, behind, level = recipe
     return Scene(parts, camera=camera, lights=lamps, background=behind, max_trace_level=level)
 
@@ -372,7 +435,8 @@ def load(
     Parameters
     ----------
     path : path
-        The file. A pickled scene names its file: where it is unpickled the file must be at the same path.
+        The file. A pickled scene names its file and knows a hash of all texts that it was read from: where it is unpickled
+        they must be at the same paths, and unchanged.
     width, height : int
         The size of its picture: of the camera, and `image_width` and `image_height` in the language.
     library_paths : paths
@@ -416,5 +480,6 @@ def load(
         list((limits or {}).items()),
     )
     scene = Scene.__new__(Scene)
-    scene._set(_native.load(name, *options), ("file", name, options))
+    native = _native.load(name, *options)
+    scene._set(native, ("file", name, options, _digest(native.files)))
     return scene

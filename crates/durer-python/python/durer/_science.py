@@ -54,6 +54,12 @@ def random_lines(centre: npt.ArrayLike, radius: float, count: int, seed: int = 0
     """Uniform random lines through a ball, as rays (count, 6) that start on its far side, with directions of length 1.
 
     Every line is as likely as any other, and they are independent. The same seed gives the same lines.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.random_lines((0, 0, 0), 1, 1000).shape
+    (1000, 6)
     """
     middle = np.asarray(vector(centre, "centre"))
     rng = np.random.default_rng(seed)
@@ -154,6 +160,12 @@ class ViewFactors:
         Their standard errors.
     counts : int64 (n,)
         How many samples left each object.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.view_factors([durer.Sphere((0, 0, 0), 1), durer.Sphere((5, 0, 0), 1)], samples=1000)
+    <ViewFactors of 2 objects from 1286 samples>
     """
 
     factors: Floats
@@ -330,7 +342,15 @@ def _common(a: Spans, b: Spans) -> Floats:
 
 @dataclass(frozen=True)
 class Chords:
-    """Where rays are inside each object: `of(i)` has the spans of object i."""
+    """Where rays are inside each object: `of(i)` has the spans of object i.
+
+    Examples
+    --------
+    >>> import durer
+    >>> chords = durer.chord_lengths([durer.Sphere((0, 0, 0), 1)], [[0, 0, 5]], [[0, 0, -1]])
+    >>> chords, chords.of(0).t_in
+    (<Chords in 1 objects>, array([4.]))
+    """
 
     spans: tuple[Spans, ...]
 
@@ -365,8 +385,8 @@ def chord_lengths(
     array([[4., 2.]])
     """
     scene = _scene(body)
-    parts = scene._parts()
-    return Chords(tuple(part.spans(origins, directions, threads=threads) for part in parts))
+    spans = scene.spans(origins, directions, by="object", threads=threads)
+    return Chords(tuple(spans.of(i) for i in range(scene.object_count)))
 
 
 def thickness(
@@ -421,6 +441,12 @@ class Scan:
         The cosine of the angle to the surface's normal; 0 without an echo.
     objects : int64 (n,)
     rays : float64 (n, 6)
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.lidar(durer.Sphere((0, 0, 0), 1), (5, 0, 0), [[-1, 0, 0], [1, 0, 0]])
+    <Scan of 2 pulses: 1 echoes>
     """
 
     points: Floats
@@ -447,6 +473,15 @@ def lidar_pattern(
     """Directions of a turning LiDAR, float64 (rows * columns, 3): x ahead, y left, z up.
 
     Azimuths and elevations are arrays of angles in radians, or how many there are: all round, and evenly between two angles.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.lidar_pattern(4, [0.0]).round(12) + 0.0
+    array([[ 1.,  0.,  0.],
+           [ 0.,  1.,  0.],
+           [-1.,  0.,  0.],
+           [ 0., -1.,  0.]])
     """
     around = np.asarray(azimuths)
     if around.ndim == 0:

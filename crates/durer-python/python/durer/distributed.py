@@ -21,7 +21,7 @@ import hashlib
 import pickle
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, wait
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -30,7 +30,7 @@ from . import _render
 from ._arrays import Bools, rays, table
 from ._camera import Camera
 from ._render import Picture
-from ._results import AllHits, Hits, Spans, _restored
+from ._results import AllHits, Hits, ObjectSpans, Spans, _restored
 from ._scene import Scene, Watch
 
 __all__ = ["all", "any", "closest", "contains", "render", "spans"]
@@ -210,22 +210,30 @@ def _rays(
     chunk: int,
     threads: int | None,
     progress: Watch,
+    **options: Any,
 ) -> list[Any]:
     start, along, ranges = rays(origins, directions, t_min, t_max)
     columns = [start, along] if ranges is None else [start, along, ranges]
     whole = np.hstack(columns)
-    return _rows(client, scene, query, whole, chunk, threads, progress)
+    return _rows(client, scene, query, whole, chunk, threads, progress, **options)
 
 
 def _rows(
-    client: Any, scene: Scene, query: str, whole: Any, chunk: int, threads: int | None, progress: Watch
+    client: Any,
+    scene: Scene,
+    query: str,
+    whole: Any,
+    chunk: int,
+    threads: int | None,
+    progress: Watch,
+    **options: Any,
 ) -> list[Any]:
     if chunk < 1:
         raise ValueError(f"chunk: at least 1 is needed, got {chunk}")
     parts = [whole[i : i + chunk] for i in range(0, max(1, len(whole)), chunk)]
     told = _Told(progress, [len(part) for part in parts], "ray")
     try:
-        return _run(client, scene, query, [((part,), {"threads": threads}) for part in parts], told)
+        return _run(client, scene, query, [((part,), {"threads": threads, **options}) for part in parts], told)
     finally:
         told.close()
 
@@ -286,21 +294,51 @@ def all(
     return _restored(AllHits, joined, invalid, len(joined["t"]))  # type: ignore[no-any-return]
 
 
+@overload
 def spans(
     scene: Scene,
     origins: npt.ArrayLike,
     directions: npt.ArrayLike | None = None,
     *,
     client: Any,
+    by: None = None,
+    t_min: npt.ArrayLike | None = None,
+    t_max: npt.ArrayLike | None = None,
+    chunk: int = CHUNK,
+    threads: int | None = None,
+    progress: Watch = False,
+) -> Spans: ...
+@overload
+def spans(
+    scene: Scene,
+    origins: npt.ArrayLike,
+    directions: npt.ArrayLike | None = None,
+    *,
+    client: Any,
+    by: Literal["object"],
+    t_min: npt.ArrayLike | None = None,
+    t_max: npt.ArrayLike | None = None,
+    chunk: int = CHUNK,
+    threads: int | None = None,
+    progress: Watch = False,
+) -> ObjectSpans: ...
+def spans(
+    scene: Scene,
+    origins: npt.ArrayLike,
+    directions: npt.ArrayLike | None = None,
+    *,
+    client: Any,
+    by: Literal["object"] | None = None,
     t_min: npt.ArrayLike | None = None,
     t_max: npt.ArrayLike | None = None,
     chunk: int = CHUNK,
     threads: int | None = None,
     progress: Watch = False,
 ) -> Spans:
-    """`Scene.spans` over a client's workers. Arguments are those of `closest`."""
-    answers = _rays(client, scene, "spans", origins, directions, t_min, t_max, chunk, threads, progress)
-    return Spans(*_joined(answers, True))
+    """`Scene.spans` over a client's workers. Arguments are those of `closest`, and `by` as there."""
+    answers = _rays(client, scene, "spans", origins, directions, t_min, t_max, chunk, threads, progress, by=by)
+    kind = Spans if by is None else ObjectSpans
+    return kind(*_joined(answers, True))
 
 
 def any(

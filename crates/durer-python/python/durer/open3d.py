@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Floats
-from ._objects import Mesh
+from ._mesh import Mesh
 from ._results import AllHits
 from ._scene import Scene
 
@@ -188,7 +188,7 @@ class RaycastingScene:
             else:
                 probe = np.random.default_rng(sample).normal(size=3)
             along = np.broadcast_to(probe, flat.shape)
-            votes += self._all(np.hstack([flat, along]), nthreads).counts % 2
+            votes += self._all(np.hstack([flat, along]), nthreads).crossings() % 2
         inside = (2 * votes > nsamples).astype(np.float32).reshape(points.shape[:-1])
         return _like(query_points, inside)[0]
 

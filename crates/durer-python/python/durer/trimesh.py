@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Bools, Floats, Ints, table
-from ._objects import Mesh
+from ._mesh import Mesh
 from ._scene import Scene
 
 __all__ = ["RayMeshIntersector", "install"]
@@ -34,7 +34,7 @@ class RayMeshIntersector:
 
     Rays are arrays or lists (n, 3) of origins and of directions of any length; only hits with t >= 0 count, and rays
     that are not finite miss. Rows of answers are in the order of the rays and, for each ray, of its hits along it. A ray
-    through a shared edge or vertex has one hit there.
+    through a shared edge or vertex has one hit there, also if it only touches the mesh.
 
     Examples
     --------
@@ -161,17 +161,21 @@ class RayMeshIntersector:
         rows = table(points, 3, "points")
         if self.mesh.is_watertight:
             along = np.broadcast_to(_PROBES[0], rows.shape)
-            odd: Bools = scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
-            return odd
+            return self._odd(scene, rows, along)
         votes = np.zeros(len(rows), dtype=np.int64)
         for probe in _PROBES:
             both = np.ones(len(rows), dtype=np.bool_)
             for sign in (1.0, -1.0):
                 along = np.broadcast_to(np.multiply(probe, sign), rows.shape)
-                both &= scene.all(rows, along, threads=self.threads or None).counts % 2 == 1
+                both &= self._odd(scene, rows, along)
             votes += both
         inside: Bools = votes * 2 > len(_PROBES)
         return inside
+
+    def _odd(self, scene: Scene, points: Floats, along: npt.NDArray[Any]) -> Bools:
+        """Whether each ray crosses the mesh an odd number of times; touches do not count."""
+        odd: Bools = scene.all(points, along, threads=self.threads or None).crossings() % 2 == 1
+        return odd
 
     def __repr__(self) -> str:
         return f"<durer.trimesh.RayMeshIntersector of {self.mesh!r}>"

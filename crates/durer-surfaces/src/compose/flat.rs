@@ -82,6 +82,17 @@ impl Algebraic for Mesh {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         through(self.facet(face), ray)
     }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let p = self.polynomial(root.face, ray)?;
+        // A grazing root does not tell it; a face that is touched edge-on has no crossing.
+        let crossing = match exact_sign(&p.b) {
+            Ordering::Greater => Crossing::Out,
+            Ordering::Less => Crossing::In,
+            Ordering::Equal => return None,
+        };
+        Some(sign_at_root(&p, crossing, q))
+    }
 }
 
 impl Algebraic for Prism {
@@ -319,7 +330,7 @@ mod tests {
         let mesh = Mesh::new(MeshData { vertices: corners.to_vec(), faces, ..MeshData::default() }).unwrap();
         let polygon = Polygon::new(&[corners], FillRule::EvenOdd).unwrap();
         let triangles = [Triangle::new([a, b, c]).unwrap(), Triangle::new([a, c, d]).unwrap()];
-        let (mut kept, mut lost) = (0, 0);
+        let (mut kept, mut lost, mut touched) = (0, 0, 0);
         for seed in 0..40 {
             let mut dice = TestRng::new(seed);
             let (regions, cuts) = regions(&mut dice);
@@ -346,11 +357,21 @@ mod tests {
                 }
                 let both = whole.iter().flatten().count();
                 let expected = if both > 0 && inside() { both } else { 0 };
-                assert_eq!(all_roots(&clipped_mesh, &ray).len(), expected, "{ray:?}");
                 assert_eq!(all_roots(&clipped_polygon, &ray).len(), expected, "{ray:?}");
+                // Borders of the mesh are touched; edge-on that is apart from the plane's crossing.
+                let of_mesh = all_roots(&mesh, &ray);
+                if of_mesh.iter().any(|r| r.sign != 0) {
+                    assert_eq!((of_mesh.len(), both), (1, 1), "{ray:?}");
+                }
+                let is_edge_on = plane.b.sign().is_eq();
+                if !is_edge_on {
+                    let expected = usize::from(!of_mesh.is_empty() && inside());
+                    assert_eq!(all_roots(&clipped_mesh, &ray).len(), expected, "{ray:?}");
+                }
+                touched += of_mesh.iter().filter(|r| r.sign == 0).count();
             }
         }
-        assert!(kept > 100 && lost > 100, "{kept} {lost}");
+        assert!(kept > 100 && lost > 100 && touched > 50, "{kept} {lost} {touched}");
     }
 
     #[test]

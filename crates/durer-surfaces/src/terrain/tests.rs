@@ -1,12 +1,12 @@
-//! Sheets against meshes of the same triangles, and against exact arithmetic over all triangles.
+//! Sheets against the same triangles one by one, and against exact arithmetic over all triangles.
 
 use super::*;
 use crate::laws::{
     self, Crossing, Exact, ExactLine, Feature, LineCache, Oracle, Surd, TestRng, TestSurface, aim, all_roots,
     exact3, roots_are_the_exact_crossings,
 };
-use crate::{Mesh, MeshData, Placed};
-use durer_math::Ray;
+use crate::{Placed, Triangle};
+use durer_math::{Affine, Ray};
 
 /// All triangles of a sheet, by exact arithmetic. With `walls` it is the solid, whose crossings are
 /// those with the planes over the borders as well.
@@ -266,17 +266,24 @@ fn features<H: Heights>(sheet: &Sheet<H>) -> Vec<Feature> {
     all
 }
 
-fn mesh_of<H: Heights>(sheet: &Sheet<H>) -> Mesh {
-    let mut data = MeshData::default();
-    for facet in (0..sheet.heights().faces()).filter_map(|face| sheet.facet(face)) {
-        let first = data.vertices.len() as u32;
-        data.vertices.extend(facet);
-        data.faces.push([first, first + 1, first + 2]);
-    }
-    Mesh::new(data).unwrap()
+fn triangles_of<H: Heights>(sheet: &Sheet<H>) -> Vec<Triangle> {
+    let facets = (0..sheet.heights().faces()).filter_map(|face| sheet.facet(face));
+    facets.map(|facet| Triangle::new(facet).unwrap()).collect()
 }
 
-/// A root without `t`, which depends on the exact order where a mesh has none.
+/// The roots of all triangles, each with its number as the face.
+fn roots_of(triangles: &[Triangle], map: Option<Affine>, ray: &Ray) -> Vec<Root> {
+    let numbered = triangles.iter().enumerate().flat_map(|(face, triangle)| {
+        let roots = match map {
+            None => all_roots(triangle, ray),
+            Some(map) => all_roots(&Placed::new(triangle.clone(), map), ray),
+        };
+        roots.into_iter().map(move |root| Root { face: face as u32, ..root })
+    });
+    numbered.collect()
+}
+
+/// A root without `t`, which depends on the exact order, which triangles do not have.
 type Unordered = (u32, i8, [f64; 2], f64, [f64; 2]);
 
 fn by_face(roots: &[Root]) -> Vec<Unordered> {
@@ -285,9 +292,9 @@ fn by_face(roots: &[Root]) -> Vec<Unordered> {
     all
 }
 
-fn same_as_mesh<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
+fn same_as_triangles<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
     assert!(sheet.water_level <= sheet.range[0]);
-    let mesh = mesh_of(sheet);
+    let triangles = triangles_of(sheet);
     let features = features(sheet);
     let (mut rays, mut hits) = (0, 0);
     for i in laws::drawn(1500) {
@@ -297,7 +304,7 @@ fn same_as_mesh<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
             continue;
         }
         let roots = all_roots(sheet, &ray);
-        let expected = all_roots(&mesh, &ray);
+        let expected = roots_of(&triangles, None, &ray);
         assert_eq!(by_face(&roots), by_face(&expected), "{ray:?} {i} {sheet:?}");
         assert!(roots.windows(2).all(|w| w[0].t <= w[1].t), "{roots:?}");
         let mut closest = crate::Closest::default();
@@ -311,7 +318,7 @@ fn same_as_mesh<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
         if moved.is_valid() {
             let (a, b) = (
                 all_roots(&Placed::new(sheet.clone(), map), &moved),
-                all_roots(&Placed::new(mesh.clone(), map), &moved),
+                roots_of(&triangles, Some(map), &moved),
             );
             assert_eq!(by_face(&a), by_face(&b), "{moved:?} {map:?} {i} {sheet:?}");
             hits += a.len();
@@ -323,7 +330,7 @@ fn same_as_mesh<H: Heights>(sheet: &Sheet<H>, seed: u64) -> (usize, usize) {
 }
 
 #[test]
-fn a_sheet_is_met_as_the_mesh_of_its_triangles() {
+fn a_sheet_is_met_as_each_of_its_triangles() {
     let (mut rays, mut hits) = (0, 0);
     let mut add = |(r, h)| {
         rays += r;
@@ -332,9 +339,9 @@ fn a_sheet_is_met_as_the_mesh_of_its_triangles() {
     for (seed, sheet) in fields().iter().enumerate() {
         let mut sheet = sheet.clone();
         sheet.water_level = f64::NEG_INFINITY;
-        add(same_as_mesh(&sheet, 50 + seed as u64));
+        add(same_as_triangles(&sheet, 50 + seed as u64));
     }
-    add(same_as_mesh(&terrain(), 90));
+    add(same_as_triangles(&terrain(), 90));
     laws::report(rays as u64);
     assert!(rays > 10_000 && hits > 10_000, "{rays} {hits}");
 }
