@@ -3,8 +3,8 @@
 use crate::{formula, value_error};
 use durer::math::{Affine, Point3, Vec3};
 use durer::scene::{
-    Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs, IfsLeaf,
-    Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
+    Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs,
+    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
     Object as SceneObject, Operation, Patch, Pigment, Prism, QuadricKind, Reflection, Rgb, Scene, Scheme,
     Shape, Spline, StraightSweep, SubdivisionData, Sweep, SweepSpline, Terrain, TerrainData, Texture, Warp,
 };

@@ -7,9 +7,8 @@ use durer_surfaces::{StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SubdivisionData, SweepSpline,
-    Terrain,
-    Texture, Warp,
+    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, SubdivisionData,
+    SweepSpline, Terrain, Texture, Warp,
 };
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is

@@ -107,8 +107,8 @@ pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::patch::{
-    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, SubdivisionData, SubdivisionError,
-    SubdivisionSurface,
+    BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, SubdivisionData,
+    SubdivisionError, SubdivisionSurface,
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

@@ -194,7 +194,11 @@ impl Parser<'_> {
     }
 
     /// `{ n, item, item, ... }`.
-    pub(super) fn counted<T>(&mut self, bytes: usize, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<T>> {
+    pub(super) fn counted<T>(
+        &mut self,
+        bytes: usize,
+        mut item: impl FnMut(&mut Self) -> Result<T>,
+    ) -> Result<Vec<T>> {
         self.expect(Mark::BraceOpen)?;
         let place = self.here();
         let count = self.float()?;

@@ -7,7 +7,8 @@ use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
     CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
     Parallelogram, PatchError, Plane, Polygon, PolygonError, Prism, Quadric, Region, Sphere, SphereSweep,
-    SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface, SurfaceOfRevolution, Torus, Triangle, TriangleError, superellipsoid,
+    SphereSweepError, SphericalSector, SubdivisionError, SubdivisionSurface, SurfaceOfRevolution, Torus,
+    Triangle, TriangleError, superellipsoid,
 };
 
 use durer_surfaces::terrain::{Heights, Sheet};

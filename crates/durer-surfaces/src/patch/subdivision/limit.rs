@@ -189,7 +189,13 @@ fn hull(points: &[[Dd; 3]]) -> Aabb {
 impl Limit {
     /// The limit surface of quadrilaterals, without those that are holes; `None` only for a mesh that
     /// is not valid.
-    pub(super) fn new(mesh: &Topology, points: &[[Dd; 3]], is_hole: &[bool], frame: (Point3, i32, f64), most: u32) -> Option<Self> {
+    pub(super) fn new(
+        mesh: &Topology,
+        points: &[[Dd; 3]],
+        is_hole: &[bool],
+        frame: (Point3, i32, f64),
+        most: u32,
+    ) -> Option<Self> {
         let (centre, scale, reach) = frame;
         let adjacency = Adjacency::new(mesh);
         let mut plans = Plans::default();
@@ -204,19 +210,23 @@ impl Limit {
             roots.push(Node { plan: plans.of(&part.mesh)?, place, depth: 0, points });
         }
         let plans = plans.all;
-        let corners = roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
+        let corners =
+            roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
         let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut tails) = (Vec::new(), Vec::new());
         let mut all = Vec::new();
-        let mut open: Vec<(usize, Node)> = roots.into_iter().map(|node| (node.place.quad as usize, node)).collect();
+        let mut open: Vec<(usize, Node)> =
+            roots.into_iter().map(|node| (node.place.quad as usize, node)).collect();
         open.reverse();
         while let Some((spot, node)) = open.pop() {
             if let Some(net) = node.net(&plans) {
                 spots[spot] = Spot::Leaf(leaves.len() as u32);
                 cells(&net, false, leaves.len() as u32, &mut all);
                 leaves.push(Leaf::new(node.place, &net));
-            } else if node.depth < ahead && let Some(quarters) = node.quarters(&plans) {
+            } else if node.depth < ahead
+                && let Some(quarters) = node.quarters(&plans)
+            {
                 let first = spots.len();
                 spots[spot] = Spot::Split(first as u32);
                 spots.extend([Spot::Tail(0); 4]);
@@ -340,7 +350,10 @@ impl Limit {
                 continue;
             }
             let is_noise = (0..2).all(|i| sight.f[i][0].abs().max(sight.f[i][1].abs()) <= NOISE * sight.e[i]);
-            if !is_noise && node.depth < MOST_STEPS && let Some(quarters) = node.quarters(&self.plans) {
+            if !is_noise
+                && node.depth < MOST_STEPS
+                && let Some(quarters) = node.quarters(&self.plans)
+            {
                 open.extend(quarters.into_iter().rev());
                 continue;
             }
@@ -432,4 +445,3 @@ impl Limit {
         (centre, exponent(reach) + 1, reach)
     }
 }
-

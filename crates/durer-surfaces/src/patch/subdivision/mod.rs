@@ -161,7 +161,11 @@ impl SubdivisionSurface {
             points = finer.stencils.iter().map(|stencil| apply(stencil, &points)).collect();
             origins = finer.origins.iter().map(|(face, _)| *face as u32).collect();
             if has_uv {
-                uv = finer.origins.iter().map(|&(face, k)| part_uv(data.uv_faces[face].len(), k, |k| corner_uv(face, k))).collect();
+                uv = finer
+                    .origins
+                    .iter()
+                    .map(|&(face, k)| part_uv(data.uv_faces[face].len(), k, |k| corner_uv(face, k)))
+                    .collect();
             }
             mesh = finer.mesh;
         }

@@ -107,9 +107,7 @@ fn regular(mesh: &Topology, fans: &[Fan]) -> Option<[Option<u32>; 16]> {
     for k in 0..4 {
         // Outward of the edge from corner k, as steps of the net.
         let out = [[0_isize, -1], [1, 0], [0, 1], [-1, 0]][k];
-        let step = |[i, j]: [usize; 2]| {
-            [i.wrapping_add_signed(out[0]), j.wrapping_add_signed(out[1])]
-        };
+        let step = |[i, j]: [usize; 2]| [i.wrapping_add_signed(out[0]), j.wrapping_add_signed(out[1])];
         let next = (k + 1) % 4;
         if !sharp[k] {
             // Across the edge, that face goes from the next corner to this one.

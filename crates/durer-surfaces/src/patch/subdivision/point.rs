@@ -72,7 +72,8 @@ impl Limit {
             }
             let (_, points) = node.relative();
             let reach = points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-            let next = if reach > POINT && node.depth < MOST_STEPS { node.quarters(&self.plans) } else { None };
+            let next =
+                if reach > POINT && node.depth < MOST_STEPS { node.quarters(&self.plans) } else { None };
             let Some(quarters) = next else { break };
             let k = quarter_of(&node.place, root.tag);
             let [a, b, c, d] = quarters;

@@ -158,7 +158,8 @@ impl<'a> Adjacency<'a> {
                 None => break,
             }
         }
-        let mut fan = Fan { ends: vec![self.beside(first, v)?[0]], faces: vec![], sharpness: vec![], corner: 0.0 };
+        let mut fan =
+            Fan { ends: vec![self.beside(first, v)?[0]], faces: vec![], sharpness: vec![], corner: 0.0 };
         let mut now = first;
         loop {
             fan.faces.push(now);
@@ -276,7 +277,14 @@ impl Adjacency<'_> {
         finish(sum)
     }
 
-    fn add_rule(&self, sum: &mut BTreeMap<u32, Dd>, v: u32, fan: &Fan, (rule, sharpness): (Rule, &[f64]), by: Dd) {
+    fn add_rule(
+        &self,
+        sum: &mut BTreeMap<u32, Dd>,
+        v: u32,
+        fan: &Fan,
+        (rule, sharpness): (Rule, &[f64]),
+        by: Dd,
+    ) {
         let own = [(v, Dd::ONE)];
         match rule {
             Rule::Corner => add(sum, &own, by),

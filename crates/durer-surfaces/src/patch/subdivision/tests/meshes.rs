@@ -88,7 +88,12 @@ pub(super) fn plate() -> SubdivisionData {
     SubdivisionData { vertices, faces, ..SubdivisionData::default() }
 }
 
-pub(super) fn grid(nu: usize, nv: usize, smooth: bool, mut at: impl FnMut(usize, usize) -> Vec3) -> SubdivisionData {
+pub(super) fn grid(
+    nu: usize,
+    nv: usize,
+    smooth: bool,
+    mut at: impl FnMut(usize, usize) -> Vec3,
+) -> SubdivisionData {
     let mut vertices = Vec::new();
     for j in 0..nv {
         for i in 0..nu {
@@ -106,7 +111,11 @@ pub(super) fn grid(nu: usize, nv: usize, smooth: bool, mut at: impl FnMut(usize,
     SubdivisionData { vertices, faces, boundary, ..SubdivisionData::default() }
 }
 
-fn creased(mut data: SubdivisionData, creases: &[(u32, u32, f64)], corners: &[(u32, f64)]) -> SubdivisionData {
+fn creased(
+    mut data: SubdivisionData,
+    creases: &[(u32, u32, f64)],
+    corners: &[(u32, f64)],
+) -> SubdivisionData {
     data.creases = creases.iter().map(|&(a, b, s)| ([a, b], s)).collect();
     data.corners = corners.to_vec();
     data
@@ -126,8 +135,12 @@ pub(super) fn closed_meshes() -> Vec<(String, SubdivisionData)> {
     let with = |s: f64| ring.map(|(a, b)| (a, b, s));
     all.push(("cube, sharp face".into(), creased(cube(), &with(10.0), &[])));
     all.push(("cube, less sharp face".into(), creased(cube(), &with(1.25), &[])));
-    all.push(("cube, mixed".into(), creased(cube(), &[(0, 1, 0.5), (1, 3, 2.25), (3, 2, 10.0), (2, 6, 1.0)], &[(7, 1.5), (5, 10.0)])));
-    let edges: Vec<_> = (0..8_u32).flat_map(|a| [1, 2, 4].map(|b| (a, a ^ b, 10.0))).filter(|(a, b, _)| a < b).collect();
+    all.push((
+        "cube, mixed".into(),
+        creased(cube(), &[(0, 1, 0.5), (1, 3, 2.25), (3, 2, 10.0), (2, 6, 1.0)], &[(7, 1.5), (5, 10.0)]),
+    ));
+    let edges: Vec<_> =
+        (0..8_u32).flat_map(|a| [1, 2, 4].map(|b| (a, a ^ b, 10.0))).filter(|(a, b, _)| a < b).collect();
     all.push(("cube, all sharp".into(), creased(cube(), &edges, &[])));
     all
 }

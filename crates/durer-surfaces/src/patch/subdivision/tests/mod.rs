@@ -36,9 +36,7 @@ fn a_regular_net_is_a_b_spline() {
     let mut dice = crate::laws::dice(1, 0);
     for closed in [false, true] {
         let n = 6;
-        let data = grid(n, n, closed, |i, j| {
-            Vec3::new(i as f64, j as f64, 0.0) + dice.vector() * 0.4
-        });
+        let data = grid(n, n, closed, |i, j| Vec3::new(i as f64, j as f64, 0.0) + dice.vector() * 0.4);
         let it = surface(&data);
         let points: Vec<_> = data.vertices.iter().map(|p| [p.x, p.y, p.z, 1.0]).collect();
         // Without ends the B-spline is that of the faces that have all neighbours.
@@ -51,10 +49,16 @@ fn a_regular_net_is_a_b_spline() {
             let direction = dice.vector() + Vec3::new(0.0, 0.0, 2.0);
             let ray = Ray::new((at - direction * 4.0).to_point(), direction);
             let (a, b) = (all_roots(&it, &ray), all_roots(&spline, &ray));
-            let inner: Vec<_> = a.iter().filter(|r| {
-                let face = &data.faces[r.face as usize];
-                face.iter().all(|v| { let (i, j) = (*v as usize % n, *v as usize / n); (1..n - 1).contains(&i) && (1..n - 1).contains(&j) })
-            }).collect();
+            let inner: Vec<_> = a
+                .iter()
+                .filter(|r| {
+                    let face = &data.faces[r.face as usize];
+                    face.iter().all(|v| {
+                        let (i, j) = (*v as usize % n, *v as usize / n);
+                        (1..n - 1).contains(&i) && (1..n - 1).contains(&j)
+                    })
+                })
+                .collect();
             assert_eq!(inner.len(), b.len(), "{ray:?} {a:?} {b:?}");
             for (a, b) in inner.iter().zip(&b) {
                 assert!(a.lo <= b.hi && b.lo <= a.hi && a.sign == b.sign, "{a:?} {b:?}");
@@ -74,7 +78,8 @@ fn vertices_have_the_limits_of_the_closed_form() {
             let Some((p, n)) = limit else { continue };
             let ray = Ray::new((*p + *n * 0.5).to_point(), *n * -1.0);
             let roots = all_roots(&it, &ray);
-            let Some(root) = roots.iter().min_by(|a, b| (a.t - 0.5).abs().total_cmp(&(b.t - 0.5).abs())) else {
+            let Some(root) = roots.iter().min_by(|a, b| (a.t - 0.5).abs().total_cmp(&(b.t - 0.5).abs()))
+            else {
                 panic!("{name}: vertex {v} is not met")
             };
             let local = LocalRay::new(&ray);
@@ -82,7 +87,10 @@ fn vertices_have_the_limits_of_the_closed_form() {
             let size = it.bounds().magnitude();
             worst = worst.max((point.p.to_vec() - *p).length() / (U * size));
             worst_n = worst_n.max((point.ng.to_vec() - *n).length() / U);
-            assert!((root.lo..=root.hi).contains(&0.5) || (root.t - 0.5).abs() < 64.0 * U * size, "{name} {v} {root:?}");
+            assert!(
+                (root.lo..=root.hi).contains(&0.5) || (root.t - 0.5).abs() < 64.0 * U * size,
+                "{name} {v} {root:?}"
+            );
         }
         println!("{name}: {:?} off by {worst} ulp, normal {worst_n}", it.counts());
         assert!(worst < 64.0, "{name} {worst}");
@@ -112,7 +120,9 @@ fn rays_from_inside_leave_closed_meshes_once_in_turn() {
             let ray = Ray::new(inside.to_point(), aim);
             let roots = all_roots(&it, &ray);
             let signs: Vec<i8> = roots.iter().map(|r| r.sign).filter(|s| *s != 0).collect();
-            let fine = signs.first() == Some(&1) && signs.last() == Some(&1) && signs.windows(2).all(|w| w[0] != w[1]);
+            let fine = signs.first() == Some(&1)
+                && signs.last() == Some(&1)
+                && signs.windows(2).all(|w| w[0] != w[1]);
             assert!(fine, "{name} {case}: {ray:?}\n{roots:#?}");
             let line = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
             let roots = all_roots(&it, &line);
