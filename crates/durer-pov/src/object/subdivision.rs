@@ -54,13 +54,13 @@ impl Parser<'_> {
                 }
                 Some(Keyword::FaceIndices) => {
                     self.next()?;
-                    data.faces = self.counted(LIST + 16, |r| r.corners_of_face("a face"))?;
+                    data.faces = self.counted(LIST + 16, |r| r.face_corners("a face"))?;
                     found = true;
                     continue;
                 }
                 Some(Keyword::UvIndices) => {
                     self.next()?;
-                    data.uv_faces = self.counted(LIST + 16, |r| r.corners_of_face("uv_indices"))?;
+                    data.uv_faces = self.counted(LIST + 16, |r| r.face_corners("uv_indices"))?;
                     continue;
                 }
                 _ => {}
@@ -141,7 +141,7 @@ impl Parser<'_> {
     }
 
     /// `<a, b, c>`, up to five of them, or `{ K, i1, ..., iK }`.
-    fn corners_of_face(&mut self, what: &str) -> Result<Vec<u32>> {
+    fn face_corners(&mut self, what: &str) -> Result<Vec<u32>> {
         self.peek()?;
         let at = self.here();
         if self.take_mark(Mark::BraceOpen)? {
