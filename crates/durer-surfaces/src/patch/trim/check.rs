@@ -130,7 +130,7 @@ pub(super) fn knots(degree: usize, points: &[[f64; 3]], given: &[f64]) -> Result
         return Err(TrimError::Knots { needed, len: given.len() });
     }
     for (i, &knot) in given.iter().enumerate() {
-        let repeated = i >= degree + 1 && given[i - degree - 1] == knot
+        let repeated = i > degree && given[i - degree - 1] == knot
             || i >= degree && given[i - degree] == knot && knot != given[0] && knot != given[needed - 1];
         if !knot.is_finite() || i > 0 && knot < given[i - 1] || repeated {
             return Err(TrimError::Knot { number: i + 1, knot });

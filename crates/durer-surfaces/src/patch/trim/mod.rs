@@ -222,7 +222,7 @@ impl Trims {
         let border = (0..4).map(|i| Piece::line(corners[i], corners[(i + 1) % 4]));
         let border: Vec<Piece> = if self.outside { border.collect() } else { vec![] };
         let pieces = border.iter().chain(self.rings.iter().flat_map(|ring| &ring.pieces));
-        pieces.map(|piece| piece.nearest(&length).1).fold(f64::INFINITY, f64::min).max(0.0).sqrt()
+        pieces.map(|piece| piece.nearest(length).1).fold(f64::INFINITY, f64::min).max(0.0).sqrt()
     }
 
     /// Whether parameters within `radius` of a point stay: `None` if some may and some may not.
