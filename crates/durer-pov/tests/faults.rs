@@ -164,7 +164,8 @@ fn parametric_surfaces_say_what_is_wrong_with_them() {
         (format!("parametric {{ {two} function {{ floor(u*4) }} <0, 0>, <1, 1> }}"), "its functions jump"),
         (format!("parametric {{ {two} function {{ u }} }}"), "expected"),
     ] {
-        let said = read(&text).map(|scene| scene.lower().map(|_| ()).map_err(|error| error.kind.to_string()));
+        let said =
+            read(&text).map(|read| read.scene.lower().map(|_| ()).map_err(|error| error.kind.to_string()));
         let said = match said {
             Ok(lowered) => lowered.unwrap_err(),
             Err(error) => error.text.clone(),
