@@ -24,10 +24,10 @@ def test_examples_run(name, request):
     assert results.failed == 0
 
 
-def test_public_names_have_docstrings():
+def test_public_names_have_docstrings_with_examples():
     for name in durer.__all__:
         thing = getattr(durer, name)
-        assert (thing.__doc__ or "").strip(), name
+        assert ">>>" in (thing.__doc__ or ""), name
         if isinstance(thing, type):
             for attribute, value in vars(thing).items():
                 if not attribute.startswith("_") and (callable(value) or isinstance(value, property)):

@@ -257,7 +257,16 @@ class Scene:
         threads: int | None = None,
         progress: Watch = False,
     ) -> AllHits:
-        """Every hit of each ray, once, ascending. Arguments are those of `closest`."""
+        """Every hit of each ray, once, ascending. Arguments are those of `closest`.
+
+        Examples
+        --------
+        >>> import durer
+        >>> scene = durer.Scene([durer.Sphere((0, 0, 0), 1), durer.Sphere((0, 0, 0), 2)])
+        >>> hits = scene.all([[0, 0, 5], [9, 9, 9]], [[0, 0, -1], [0, 0, -1]])
+        >>> hits.t, hits.object, hits.counts
+        (array([3., 4., 6., 7.]), array([1, 0, 0, 1]), array([4, 0]))
+        """
         native, count = self._query(_native.all, origins, directions, t_min, t_max, threads, progress)
         return AllHits(native, count)
 
@@ -328,7 +337,14 @@ class Scene:
     def contains(
         self, points: npt.ArrayLike, *, threads: int | None = None, progress: Watch = False
     ) -> Bools:
-        """Whether each point (n, 3) lies inside or on a solid, exactly: bool, (n,). Points that are not finite do not."""
+        """Whether each point (n, 3) lies inside or on a solid, exactly: bool, (n,). Points that are not finite do not.
+
+        Examples
+        --------
+        >>> import durer
+        >>> durer.Scene([durer.Box((0, 0, 0), (1, 1, 1))]).contains([[0.5, 0.5, 0.5], [1, 1, 1], [1, 1, 1.0000000000000002]])
+        array([ True,  True, False])
+        """
         rows = table(points, 3, "points")
         with Progress(progress, len(rows)) as watch:
             return _native.contains(self._native, rows, thread_count(threads), watch.call)
@@ -378,7 +394,15 @@ class Scene:
         width: int = 640,
         height: int = 480,
     ) -> Camera | None:
-        """A camera that frames everything, looking along a direction; None if something has no end or nothing is there."""
+        """A camera that frames everything, looking along a direction; None if something has no end or nothing is there.
+
+        Examples
+        --------
+        >>> import durer
+        >>> camera = durer.Scene([durer.Box((0, 0, 0), (1, 1, 1))]).view(width=40, height=30)
+        >>> camera.width, camera.height, durer.Scene([durer.Plane((0, 0, 1))]).view()
+        (40, 30, None)
+        """
         bounds = self.bounds
         if not np.isfinite(bounds).all() or (bounds[0] > bounds[1]).any():
             return None

@@ -209,7 +209,7 @@ impl Contact<'_, '_> {
                     #[inline(always)]
                     || planar::ratios(self.probe, &ShareForm(ends)),
                 );
-                if !(share.e <= planar::TIGHT) {
+                if share.e.is_nan() || share.e > planar::TIGHT {
                     return None;
                 }
                 let share = share.v.clamp(0.0, 1.0);
