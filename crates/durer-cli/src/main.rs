@@ -7,6 +7,7 @@ mod check;
 mod explain;
 mod failure;
 mod input;
+mod noise;
 mod output;
 mod render;
 mod trace;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Command::Explain(args) => explain::run(&args),
         Command::Check(args) => check::run(&args),
         Command::View(args) => view::run(&args),
+        Command::LearnNoise(args) => noise::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -247,7 +247,7 @@ impl Parser<'_> {
             }
             Keyword::FileExists => {
                 let name = self.file_name()?;
-                flag(self.library.find(&name).is_some())
+                flag(self.written_file(&name).is_some() || self.library.find(&name).is_some())
             }
             Keyword::Defined => flag(self.defined_name()?),
             Keyword::Dimensions => (self.array_argument()?.sizes.len() as f64).into(),

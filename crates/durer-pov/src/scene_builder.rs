@@ -326,6 +326,7 @@ impl Parser<'_> {
             }),
             sky,
             fogs: output.fogs,
+            noise: self.options.noise.clone(),
             settings: scene::Settings {
                 assumed_gamma: gamma,
                 version,

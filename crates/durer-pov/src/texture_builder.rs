@@ -52,6 +52,12 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
     let kind = match &own.body {
         Body::Solid(color) => return Ok(scene::Pigment::solid(scene::Colour::from_terms(*color))),
         Body::Patterned(kind) => kind.clone(),
+        Body::Image(map) => {
+            // Only its warps are used.
+            let pattern = Pattern { kind: PatternKind::Average, modifiers: own.modifiers.clone() };
+            let body = scene::PigmentBody::Image(warps_of(&pattern, at)?, Arc::clone(map));
+            return Ok(scene::Pigment { body, placement: placement(&own.modifiers.place, at)? });
+        }
     };
     let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
     let mut made = match own.paint(&pattern.kind) {
@@ -140,6 +146,10 @@ fn plain_pattern<T: Clone, U>(
             if pattern.kind == PatternKind::Average {
                 return mean(entries, at);
             }
+            if let PatternKind::Materials(map) = &pattern.kind {
+                let entries = entries.into_iter().map(|(_, entry)| entry).collect();
+                return Ok(scene::Pattern::Image { map: Arc::clone(map), entries });
+            }
             return Ok(scene::Pattern::Map { value: value_of(pattern, at)?, entries });
         }
     };
@@ -211,6 +221,7 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         | PatternKind::Square
         | PatternKind::Triangular
         | PatternKind::Brick { .. }
+        | PatternKind::Materials(_)
         | PatternKind::Average => return Err(Error::invalid(at, "this pattern has no value at a point")),
     };
     Ok(match word {

@@ -11,21 +11,17 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | All
             | Alpha
             | Altitude
             | AlwaysSample
             | Aoi
             | Aperture
-            | Append
             | ArcAngle
             | AreaIllumination
             | Autostop
             | BlurSamples
-            | Bmp
             | Bokeh
             | Brightness
-            | BumpMap
             | Collect
             | Composite
             | Confidence
@@ -37,30 +33,20 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Eccentricity
             | ErrorBound
             | ExpandThresholds
-            | Exr
             | Extinction
             | FalloffAngle
             | FocalPoint
-            | Gamma
             | Gather
-            | Gif
             | GlobalLights
             | GrayThreshold
-            | Hdr
             | Iff
-            | ImageMap
-            | ImagePattern
             | Importance
             | InteriorTexture
-            | Interpolate
             | Intervals
             | Irid
-            | Jpeg
             | LightGroup
             | LoadFile
             | LowErrorFactor
-            | MapType
-            | MaterialMap
             | MaxSample
             | MaximumReuse
             | Method
@@ -69,17 +55,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NumberOfSides
             | NumberOfTiles
             | Omnimax
-            | Once
             | Parametric
             | PassThrough
             | Pattern
             | Pavement
-            | Pgm
-            | Png
             | Pot
-            | Ppm
             | Precompute
-            | Premultiplied
             | PretraceEnd
             | PretraceStart
             | Prod
@@ -103,9 +84,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spacing
             | Sum
             | Target
-            | Tga
             | Thickness
-            | Tiff
             | Tile2
             | Tiles
             | Tiling
@@ -113,9 +92,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Uint16be
             | Uint16le
             | Uint8
-            | UseAlpha
-            | UseColor
-            | UseIndex
             | UvMapping
             | Variance
             | Vturbulence

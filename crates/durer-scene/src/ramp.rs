@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::Vec3;
 use durer_surfaces::tape::Formula;
 
-use crate::{Pigment, Turbulence};
+use crate::{ImageMap, ImageValue, Pigment, Turbulence};
 
 /// The function that a continuous pattern grows with.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,8 @@ pub enum Ramp {
     Fractal(Fractal),
     /// A formula of x, y and z.
     Formula(Arc<Formula>),
+    /// A number of a picture.
+    Image(Arc<ImageMap>, ImageValue),
     /// The grey value of a pigment.
     Pigment(Box<Pigment>),
 }

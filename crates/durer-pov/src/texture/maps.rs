@@ -187,6 +187,25 @@ impl Parser<'_> {
         Ok(Texture::Patterned { pattern: self.plain_pattern(kind), map })
     }
 
+    /// Reads what follows `material_map`: a picture, and a texture for each of its indices.
+    pub(crate) fn material_map(&mut self) -> Result<Texture> {
+        let mut items = Vec::new();
+        let map = self.image_block_with(|r| {
+            let here = r.take_word(Keyword::Texture)?;
+            if here {
+                items.push(r.nested(Self::texture_block)?);
+                r.check_entries(items.len())?;
+            }
+            Ok(here)
+        })?;
+        if items.is_empty() {
+            return Err(Error::invalid(self.here(), "a material_map needs textures"));
+        }
+        let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
+        let list = Rc::new(Map::list(items, self.check_map_depth(depth)?));
+        Ok(Texture::Patterned { pattern: self.plain_pattern(PatternKind::Materials(map.map)), map: list })
+    }
+
     /// Reads `texture_map {}` inside a patterned texture.
     pub(crate) fn texture_map_item(&mut self, is_mean: bool, map: &mut Rc<Map<Texture>>) -> Result<bool> {
         let here = self.take_word(Keyword::TextureMap)?;

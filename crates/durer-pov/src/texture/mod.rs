@@ -1,6 +1,7 @@
 //! Textures: pigments, finishes, layers, materials, and the grammar of their blocks.
 
 mod finish;
+mod images;
 mod interior;
 mod maps;
 mod normal;
@@ -141,6 +142,10 @@ impl Parser<'_> {
                         Rc::make_mut(normal).keeps_slope = keeps_slope;
                     }
                 }
+                continue;
+            }
+            if self.take_word(Keyword::MaterialMap)? {
+                texture = self.nested(Self::material_map)?;
                 continue;
             }
             if let Some(kind) = self.pattern_kind(None)? {

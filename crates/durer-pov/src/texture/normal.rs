@@ -92,7 +92,8 @@ impl Parser<'_> {
                 normal.transform(&by);
                 continue;
             }
-            if let Some(kind) = self.normal_kind(&normal)? {
+            let mut bump_size = None;
+            if let Some(kind) = self.normal_kind(&normal, &mut bump_size)? {
                 if normal.kind.is_none() {
                     self.set_noise_generator(&mut normal.modifiers);
                 }
@@ -103,7 +104,7 @@ impl Parser<'_> {
                     }
                 }
                 normal.kind = Some(kind);
-                if let Some(amount) = self.amount()? {
+                if let Some(amount) = self.amount()?.or(bump_size) {
                     normal.amount = amount;
                 }
                 continue;
@@ -120,7 +121,14 @@ impl Parser<'_> {
     }
 
     /// Reads the word of a pattern, and what belongs to it.
-    fn normal_kind(&mut self, normal: &Normal) -> Result<Option<NormalKind>> {
+    fn normal_kind(&mut self, normal: &Normal, bump_size: &mut Option<f64>) -> Result<Option<NormalKind>> {
+        if self.take_word(Keyword::BumpMap)? {
+            let place = self.here();
+            let read = self.nested(Self::image_block)?;
+            *bump_size = read.bump_size;
+            let ramp = durer_scene::Ramp::Image(read.map, read.value);
+            return Ok(Some(NormalKind::Pattern(PatternKind::Ramp(Rc::new(ramp), place))));
+        }
         if !self.take_word(Keyword::Facets)? {
             let kind = self.pattern_kind(normal.pattern().cloned())?;
             return Ok(kind.map(NormalKind::Pattern));
