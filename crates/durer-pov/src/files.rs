@@ -194,7 +194,10 @@ impl Parser<'_> {
     }
 
     fn close_file(&mut self) -> Result<()> {
-        let (name, _) = self.open_handle()?;
+        // A file that has been read to its end is closed already.
+        let Some((Kind::Name(name), _)) = self.take_raw() else {
+            return Err(Error::invalid(self.here(), "expected the name of an open file"));
+        };
         self.forget(name);
         Ok(())
     }

@@ -577,6 +577,10 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
                 metallic: mirror.metallic,
             })
         }),
+        irid: own.irid.map(|[amount, thickness]| {
+            let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
+            scene::Irid { amount, thickness, wavelength }
+        }),
         conserve_energy: own.conserve_energy,
     }
 }

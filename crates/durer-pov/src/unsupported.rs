@@ -15,16 +15,13 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Altitude
             | AlwaysSample
             | Aoi
-            | Aperture
             | ArcAngle
             | AreaIllumination
             | Autostop
-            | BlurSamples
             | Bokeh
             | Brightness
             | Collect
             | Composite
-            | Confidence
             | Count
             | Density
             | DensityFile
@@ -35,7 +32,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ExpandThresholds
             | Extinction
             | FalloffAngle
-            | FocalPoint
             | Gather
             | GlobalLights
             | GrayThreshold
@@ -43,7 +39,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Importance
             | InteriorTexture
             | Intervals
-            | Irid
             | LightGroup
             | LoadFile
             | LowErrorFactor
@@ -64,9 +59,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | PretraceEnd
             | PretraceStart
             | Prod
-            | ProjectedThrough
             | Pwr
-            | Rainbow
             | Ratio
             | Reciprocal
             | RecursionLimit
@@ -84,17 +77,11 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spacing
             | Sum
             | Target
-            | Thickness
-            | Tile2
-            | Tiles
             | Tiling
             | Translucency
             | Uint16be
             | Uint16le
             | Uint8
-            | UvMapping
-            | Variance
-            | Vturbulence
             | Width
             | Xyz
     )

@@ -41,7 +41,7 @@ mod texture;
 
 pub use crate::camera::{Camera, Projection};
 pub use crate::colour::{Colour, Rgb};
-pub use crate::finish::{Finish, Reflection};
+pub use crate::finish::{Finish, Irid, Reflection};
 pub use crate::fog::{Fog, GroundFog};
 pub use crate::image::{Between, Image, ImageMap, ImageValue, Layout};
 pub use crate::interior::Interior;

@@ -109,6 +109,9 @@ impl Parser<'_> {
                 }
                 continue;
             }
+            if self.uv_mapping()? {
+                continue;
+            }
             if !self.normal_modifier(&mut normal)? {
                 let lexeme = self.next()?;
                 match &lexeme.item {

@@ -221,6 +221,9 @@ impl Parser<'_> {
             {
                 continue;
             }
+            if self.uv_mapping()? {
+                continue;
+            }
             if self.take_word(Keyword::QuickColor)? {
                 self.colour()?;
                 continue;
