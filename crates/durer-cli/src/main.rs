@@ -10,6 +10,7 @@ mod input;
 mod noise;
 mod output;
 mod render;
+mod switches;
 mod trace;
 mod view;
 
@@ -18,7 +19,14 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    let arguments = match switches::translated(std::env::args_os().collect()) {
+        Ok(arguments) => arguments,
+        Err(failure) => {
+            eprintln!("{failure}");
+            return failure.exit_code();
+        }
+    };
+    let done = match Cli::parse_from(arguments).command {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Explain(args) => explain::run(&args),

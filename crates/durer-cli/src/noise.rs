@@ -26,7 +26,6 @@ pub(crate) fn run(args: &LearnNoiseArgs) -> Result<(), Failure> {
     let (version, said) = measured(program)?;
     let (table, difference) = table(&said)
         .ok_or_else(|| Failure::file(program, "its noise is not the one that durer knows how to measure"))?;
-    let numbers: Vec<String> = table.iter().map(f64::to_string).collect();
     let text = serde_json::json!({
         "povray": version,
         "largest_difference": difference,
@@ -37,7 +36,7 @@ pub(crate) fn run(args: &LearnNoiseArgs) -> Result<(), Failure> {
     written.map_err(|why| Failure::file(&path, format_args!("cannot write: {why}")))?;
     println!(
         "{} numbers of the noise of POV-Ray {version}; at {CHECKED} points it differs by at most {difference:e}",
-        numbers.len()
+        table.len()
     );
     println!("kept in {}", path.display());
     Ok(())
@@ -78,7 +77,7 @@ pub(crate) fn chosen(choice: Option<NoiseChoice>) -> Result<Option<Known>, Failu
     let text =
         std::fs::read_to_string(&path).map_err(|why| Failure::file(&path, format_args!("cannot read: {why}")))?;
     let known = serde_json::from_str::<serde_json::Value>(&text).ok().and_then(|data| {
-        let numbers: Option<Vec<f64>> = data.get("table")?.as_array()?.iter().map(|v| v.as_f64()).collect();
+        let numbers: Option<Vec<f64>> = data.get("table")?.as_array()?.iter().map(serde_json::Value::as_f64).collect();
         let version = data.get("povray")?.as_str()?.to_owned();
         Some((Arc::new(LearnedNoise::new(&numbers?)?), version))
     });

@@ -134,13 +134,9 @@ fn plain_pattern<T: Clone, U>(
     mut part: impl FnMut(&T) -> Result<U>,
     blend: impl Fn(&T, &T, f64) -> Result<T>,
 ) -> Result<scene::Pattern<U>> {
-    let cells = match &pattern.kind {
-        PatternKind::Checker => scene::Cells::Checker,
-        PatternKind::Hexagon => scene::Cells::Hexagon,
-        PatternKind::Square => scene::Cells::Square,
-        PatternKind::Triangular => scene::Cells::Triangular,
-        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(*size), mortar: *mortar },
-        _ => {
+    let cells = match cells_of(&pattern.kind) {
+        Some(cells) => cells,
+        None => {
             let entries = map.entries.iter().map(|(at, item)| Ok((*at, part(item)?)));
             let entries = entries.collect::<Result<Vec<_>>>()?;
             if pattern.kind == PatternKind::Average {
@@ -168,6 +164,18 @@ fn plain_pattern<T: Clone, U>(
     };
     let entries = (0..map.entries.len()).map(|number| part(&entry(number)?)).collect::<Result<_>>()?;
     Ok(scene::Pattern::Cells { cells, entries })
+}
+
+/// How the pattern of a list divides space.
+fn cells_of(kind: &PatternKind) -> Option<scene::Cells> {
+    Some(match kind {
+        PatternKind::Checker => scene::Cells::Checker,
+        PatternKind::Hexagon => scene::Cells::Hexagon,
+        PatternKind::Square => scene::Cells::Square,
+        PatternKind::Triangular => scene::Cells::Triangular,
+        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(*size), mortar: *mortar },
+        _ => return None,
+    })
 }
 
 fn mean<U>(entries: Vec<(f64, U)>, at: Place) -> Result<scene::Pattern<U>> {
@@ -220,8 +228,11 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         | PatternKind::Hexagon
         | PatternKind::Square
         | PatternKind::Triangular
-        | PatternKind::Brick { .. }
-        | PatternKind::Materials(_)
+        | PatternKind::Brick { .. } => {
+            let cells = cells_of(&pattern.kind);
+            return cells.map(scene::Ramp::Kind).ok_or_else(|| Error::invalid(at, "this pattern has no value"));
+        }
+        PatternKind::Materials(_)
         | PatternKind::Average => return Err(Error::invalid(at, "this pattern has no value at a point")),
     };
     Ok(match word {

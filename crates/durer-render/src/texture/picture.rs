@@ -129,6 +129,23 @@ impl Picture {
         self.0.image.index(column, row)
     }
 
+    /// The differences of the value between the pixel at a point and those to the right and above.
+    pub(super) fn differences(&self, p: Point3, value: ImageValue) -> Vec3 {
+        let Some((u, v)) = self.place(p) else { return Vec3::ZERO };
+        let (columns, rows) = self.size();
+        let (x, y) = (floor(u * columns), floor(v * rows));
+        let at = |x: f64, y: f64| {
+            let (column, row) = self.pixel(x, y);
+            match value {
+                ImageValue::Grey => self.0.image.colour(column, row).rgb.luminance(),
+                ImageValue::Alpha => 1.0 - self.0.image.colour(column, row).transmit,
+                ImageValue::Index => self.0.image.index(column, row) as f64 / 255.0,
+            }
+        };
+        let here = at(x, y);
+        Vec3::new(at(x + 1.0, y) - here, at(x, y + 1.0) - here, 0.0)
+    }
+
     /// The number that the picture gives at a point; 0 beyond a picture that is there once.
     pub(super) fn value(&self, p: Point3, value: ImageValue) -> f64 {
         if self.0.once && self.place(p).is_none() {

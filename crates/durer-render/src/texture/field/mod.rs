@@ -14,6 +14,7 @@ pub(super) use crackle::cell_number;
 pub(crate) use noise::Stir;
 pub(super) use push::Pusher;
 
+use super::cells::Cutter;
 use super::{Grains, Picture, RenderPigment};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
@@ -46,6 +47,7 @@ pub(crate) enum Field {
     Formula(Box<Tape>),
     Pigment(Box<RenderPigment>),
     Picture(Picture, ImageValue),
+    Kind(Cutter),
 }
 
 impl Field {
@@ -75,6 +77,7 @@ impl Field {
             Ramp::Crackle(crackle) => Self::Crackle(Points::new(crackle)),
             Ramp::Fractal(fractal) => Self::Fractal(*fractal),
             Ramp::Image(map, value) => Self::Picture(Picture::new(map), *value),
+            Ramp::Kind(cells) => Self::Kind(Cutter::new(*cells)),
             Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
             Ramp::Pigment(pigment) => {
                 Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
@@ -105,6 +108,7 @@ impl Field {
             Self::Fractal(set) => fractal::value(set, p),
             Self::Pigment(pigment) => pigment.at(p).rgb.luminance(),
             Self::Picture(picture, value) => picture.value(p, *value),
+            Self::Kind(cutter) => cutter.kind(p) as f64,
             Self::Marble(None) => p.x,
             _ => {
                 let lanes = self.values(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::first(1));
