@@ -74,10 +74,11 @@ pub(crate) fn chosen(choice: Option<NoiseChoice>) -> Result<Option<Known>, Failu
             None => Ok(None),
         };
     };
-    let text =
-        std::fs::read_to_string(&path).map_err(|why| Failure::file(&path, format_args!("cannot read: {why}")))?;
+    let text = std::fs::read_to_string(&path)
+        .map_err(|why| Failure::file(&path, format_args!("cannot read: {why}")))?;
     let known = serde_json::from_str::<serde_json::Value>(&text).ok().and_then(|data| {
-        let numbers: Option<Vec<f64>> = data.get("table")?.as_array()?.iter().map(serde_json::Value::as_f64).collect();
+        let numbers: Option<Vec<f64>> =
+            data.get("table")?.as_array()?.iter().map(serde_json::Value::as_f64).collect();
         let version = data.get("povray")?.as_str()?.to_owned();
         Some((Arc::new(LearnedNoise::new(&numbers?)?), version))
     });
@@ -104,8 +105,11 @@ fn checked() -> impl Iterator<Item = [f64; 3]> {
 
 /// Runs POV-Ray on a scene that prints its noise. Returns its version and the printed numbers.
 fn measured(program: &Path) -> Result<(String, Vec<f64>), Failure> {
-    let Some(lattice) = lattice() else { return Err(Failure::Input("error: the lattice lacks a hash".into())) };
-    let mut scene = String::from("#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#include \"functions.inc\"\n");
+    let Some(lattice) = lattice() else {
+        return Err(Failure::Input("error: the lattice lacks a hash".into()));
+    };
+    let mut scene =
+        String::from("#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#include \"functions.inc\"\n");
     let x0 = lattice[LAST] as f64;
     let near = [[x0 + AWAY, 0.0, 0.0], [x0, AWAY, 0.0], [x0, 0.0, AWAY]];
     for [x, y, z] in lattice.iter().map(|&x| [x as f64, 0.0, 0.0]).chain(near) {
@@ -115,7 +119,8 @@ fn measured(program: &Path) -> Result<(String, Vec<f64>), Failure> {
         );
     }
     for [x, y, z] in checked() {
-        let _ = writeln!(scene, "#debug concat(\"durer-noise \", str(f_noise3d({x}, {y}, {z}), 0, 17), \"\\n\")");
+        let _ =
+            writeln!(scene, "#debug concat(\"durer-noise \", str(f_noise3d({x}, {y}, {z}), 0, 17), \"\\n\")");
     }
     scene += "camera { location -z }\n";
     let folder = std::env::temp_dir().join(format!("durer-learn-noise-{}", std::process::id()));

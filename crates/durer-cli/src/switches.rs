@@ -71,7 +71,9 @@ impl Translated {
         let (is_on, body) = match (text.strip_prefix('+'), text.strip_prefix('-')) {
             (Some(body), _) => (true, body),
             // Options of durer's own begin with one small letter or two dashes.
-            (None, Some(body)) if body.starts_with(|c: char| c.is_ascii_uppercase() && c != 'L') => (false, body),
+            (None, Some(body)) if body.starts_with(|c: char| c.is_ascii_uppercase() && c != 'L') => {
+                (false, body)
+            }
             _ => return Ok(false),
         };
         let upper = body.to_ascii_uppercase();
@@ -102,7 +104,8 @@ impl Translated {
             self.smoothing.depth = whole(1)?;
         } else if upper.starts_with("FN16") {
             self.option("--bits", "16");
-        } else if ["KF", "KI", "SF", "EF", "SC", "EC", "SR", "ER"].iter().any(|word| upper.starts_with(word)) {
+        } else if ["KF", "KI", "SF", "EF", "SC", "EC", "SR", "ER"].iter().any(|word| upper.starts_with(word))
+        {
             let text = format!("{text}: durer renders one whole picture; --clock and --region choose it");
             return Err(Failure::Usage(text));
         } else if upper.starts_with('K') {
@@ -208,7 +211,11 @@ mod tests {
     #[test]
     fn ini_files_are_read() {
         let path = std::env::temp_dir().join(format!("durer-switches-{}.ini", std::process::id()));
-        std::fs::write(&path, "; a comment\n[Small]\nWidth = 64\nHeight=48 ; low\nAntialias=On\n+Ib.pov\nDisplay=Off\n").unwrap();
+        std::fs::write(
+            &path,
+            "; a comment\n[Small]\nWidth = 64\nHeight=48 ; low\nAntialias=On\n+Ib.pov\nDisplay=Off\n",
+        )
+        .unwrap();
         let mut arguments = words("durer render");
         arguments.push(path.clone().into());
         let own = translated(arguments).ok();

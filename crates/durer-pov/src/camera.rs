@@ -221,7 +221,9 @@ impl Parser<'_> {
                     self.nested(|r| r.normal_block(&crate::texture::Normal::default()))?;
                     continue;
                 }
-                Item::Word(Keyword::Aperture | Keyword::BlurSamples | Keyword::Variance | Keyword::Confidence) => {
+                Item::Word(
+                    Keyword::Aperture | Keyword::BlurSamples | Keyword::Variance | Keyword::Confidence,
+                ) => {
                     self.note_left_out("focal blur", place)?;
                     self.float()?;
                     self.skip_comma()?;

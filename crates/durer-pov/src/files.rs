@@ -214,6 +214,7 @@ impl Parser<'_> {
     fn read_values(&mut self, place: Place) -> Result<()> {
         self.expect(Mark::ParenOpen)?;
         let (handle, number) = self.open_handle()?;
+        let mut has_ended = false;
         loop {
             self.take_raw_mark(Mark::Comma);
             if self.take_raw_mark(Mark::ParenClose) {
@@ -227,15 +228,13 @@ impl Parser<'_> {
                 _ => None,
             };
             let Some(Handle::Reads(source, token)) = self.files.open.get(number) else {
-                return Err(Error::invalid(place, "this file is not open for reading"));
+                let why = if has_ended { "has no value for this" } else { "is not open for reading" };
+                return Err(Error::invalid(if has_ended { at } else { place }, format!("the file {why}")));
             };
             let mut data = Data { source: source.clone(), at: *token };
-            if data.is_over() {
-                let text = format!("{} has no value for this", data.source.path.display());
-                return Err(Error::invalid(at, text));
-            }
             let value = data.value(at)?;
-            let (is_over, next) = (data.is_over(), data.at);
+            has_ended = data.is_over();
+            let next = data.at;
             if let Some(Handle::Reads(_, token)) = self.files.open.get_mut(number) {
                 *token = next;
             }
@@ -248,7 +247,7 @@ impl Parser<'_> {
                 Some(target) => self.assign_element(&target, value, at)?,
                 None => self.scopes.declare(name, value),
             }
-            if is_over && matches!(self.scopes.get(handle), Some(Value::File(_))) {
+            if has_ended && matches!(self.scopes.get(handle), Some(Value::File(_))) {
                 self.files.open[number] = Handle::Closed;
                 self.scopes.undefine(handle);
             }
@@ -271,7 +270,7 @@ impl Parser<'_> {
             };
             let text = if is_text { self.string("the file")? } else { shown(self.expression()?) };
             let Some(&Handle::Writes(file)) = self.files.open.get(number) else {
-                return Err(Error::invalid(place, "this file is not open for writing"));
+                return Err(Error::invalid(place, "the file is not open for writing"));
             };
             self.count_steps(1 + text.len() as u64 / 16, place)?;
             crate::limits::charge_for_good(text.len());

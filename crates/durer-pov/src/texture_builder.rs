@@ -230,10 +230,13 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         | PatternKind::Triangular
         | PatternKind::Brick { .. } => {
             let cells = cells_of(&pattern.kind);
-            return cells.map(scene::Ramp::Kind).ok_or_else(|| Error::invalid(at, "this pattern has no value"));
+            return cells
+                .map(scene::Ramp::Kind)
+                .ok_or_else(|| Error::invalid(at, "this pattern has no value"));
         }
-        PatternKind::Materials(_)
-        | PatternKind::Average => return Err(Error::invalid(at, "this pattern has no value at a point")),
+        PatternKind::Materials(_) | PatternKind::Average => {
+            return Err(Error::invalid(at, "this pattern has no value at a point"));
+        }
     };
     Ok(match word {
         Keyword::Spherical => scene::Ramp::Spherical,

@@ -77,7 +77,8 @@ fn wrong_pictures_are_refused_in_words() {
         ("iff \"a.iff\"", "not supported yet: a picture of the type iff"),
         ("ppm \"a.ppm\" sphere", "expected a part of a picture, found `sphere`"),
     ] {
-        let error = with(NEW, &format!("sphere {{ 0, 1 pigment {{ image_map {{ {block} }} }} }}")).unwrap_err();
+        let error =
+            with(NEW, &format!("sphere {{ 0, 1 pigment {{ image_map {{ {block} }} }} }}")).unwrap_err();
         assert!(error.text.contains(part), "{block}: {error}");
     }
     let read = with(NEW, "sphere { 0, 1 texture { material_map { ppm \"a.ppm\" } } }");

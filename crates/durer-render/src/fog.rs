@@ -4,7 +4,7 @@
 //! fog's distance and `d` the integral of its density along the way: `s` for fog that is the same
 //! everywhere. The density of a layer on the ground depends on the height `h` alone, so that
 //! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density. With turbulence it is
-//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-d/D)))`: `T` is turbulent noise at the point `p` half-way,
+//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p` half-way,
 //! whose coordinates are multiplied by the turbulence, and `k` the depth of turbulence. This was
 //! found from POV-Ray's pictures.
 
@@ -76,11 +76,11 @@ impl RenderFog {
                 }
             };
             let depth = way / self.distance;
-            let t = elementary::exp(-depth);
-            through.0[i] = match stirred {
-                Some(noise) => elementary::exp(-depth * (1.0 - (noise.0[i] * self.depth).min(1.0) * t)),
-                None => t,
-            };
+            let width = stirred.map_or(1.0, |noise| {
+                let part = (noise.0[i] * self.depth).min(1.0);
+                1.0 - part * elementary::exp(-s / self.distance)
+            });
+            through.0[i] = elementary::exp(-depth * width);
         }
         through
     }

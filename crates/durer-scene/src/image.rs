@@ -29,12 +29,7 @@ impl Image {
 
     /// Makes a picture of indices into a palette, row by row from the top left; `None` if their
     /// number is not `columns * rows`, or zero, or the palette has not 256 colours.
-    pub fn from_indices(
-        columns: usize,
-        rows: usize,
-        palette: Vec<Colour>,
-        indices: Vec<u8>,
-    ) -> Option<Self> {
+    pub fn from_indices(columns: usize, rows: usize, palette: Vec<Colour>, indices: Vec<u8>) -> Option<Self> {
         let fits = !indices.is_empty() && columns.checked_mul(rows) == Some(indices.len());
         let whole = palette.len() == 256;
         (fits && whole).then_some(Self { columns, rows, pixels: Pixels::Indexed(palette, indices) })

@@ -206,6 +206,8 @@ impl Parser<'_> {
             items.push(self.texture_value()?);
         }
         self.expect(Mark::BraceClose)?;
+        // The second texture is that of the checker's first cells.
+        items.reverse();
         let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
         let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));
         Ok(Texture::Patterned { pattern: self.plain_pattern(PatternKind::Checker), map })

@@ -128,7 +128,11 @@ impl Parser<'_> {
     }
 
     /// Reads the word of a pattern, and what belongs to it.
-    fn normal_kind(&mut self, normal: &Normal, bump_size: &mut Option<Option<f64>>) -> Result<Option<NormalKind>> {
+    fn normal_kind(
+        &mut self,
+        normal: &Normal,
+        bump_size: &mut Option<Option<f64>>,
+    ) -> Result<Option<NormalKind>> {
         if self.take_word(Keyword::BumpMap)? {
             let place = self.here();
             let read = self.nested(Self::image_block)?;

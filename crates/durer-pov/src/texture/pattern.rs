@@ -42,7 +42,12 @@ impl PatternKind {
             Self::Hexagon => Some(3),
             Self::Square => Some(4),
             Self::Triangular => Some(6),
-            Self::Gradient(_) | Self::Written(..) | Self::Ramp(..) | Self::GreyOf(_) | Self::Materials(_) | Self::Average => None,
+            Self::Gradient(_)
+            | Self::Written(..)
+            | Self::Ramp(..)
+            | Self::GreyOf(_)
+            | Self::Materials(_)
+            | Self::Average => None,
         }
     }
 

@@ -227,7 +227,10 @@ mod tests {
         let (endless, once) = (dot(Between::Nearest, false), dot(Between::Nearest, true));
         assert_eq!((at(&endless, 8.0, -16.0), at(&endless, 8.6, 0.0)), (1.0, 0.0));
         assert_eq!(once.colour(Point3::new(1.4, 0.5, 0.0)), CLEAR);
-        assert_eq!((at(&once, 0.4, 0.4), once.value(Point3::new(-0.1, 0.5, 0.0), ImageValue::Grey)), (1.0, 0.0));
+        assert_eq!(
+            (at(&once, 0.4, 0.4), once.value(Point3::new(-0.1, 0.5, 0.0), ImageValue::Grey)),
+            (1.0, 0.0)
+        );
         assert_eq!(endless.colour(Point3::new(f64::INFINITY, 0.5, f64::NAN)).rgb.r, 0.0);
     }
 }
