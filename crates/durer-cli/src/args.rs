@@ -25,6 +25,24 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Show a scene in the browser: turn it, and click a pixel to see what its ray met.
     View(ViewArgs),
+    /// Measure the noise of an installed POV-Ray, so that noisy textures have its grains.
+    LearnNoise(LearnNoiseArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LearnNoiseArgs {
+    /// The program. [default: povray on the search path]
+    #[arg(long, value_name = "PATH")]
+    pub(crate) povray: Option<PathBuf>,
+}
+
+/// The noise of textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NoiseChoice {
+    /// durer's own.
+    Own,
+    /// The one that `durer learn-noise` has measured.
+    Learned,
 }
 
 /// How to read a scene.
@@ -49,6 +67,15 @@ pub(crate) struct SceneArgs {
     /// subdivision.
     #[arg(long, value_name = "SCHEME")]
     pub(crate) subdivide: Option<Subdivide>,
+    /// The noise of textures. [default: the learned one where there is one]
+    #[arg(long, value_enum, value_name = "WHICH")]
+    pub(crate) noise: Option<NoiseChoice>,
+    /// The folder of the files that the scene writes with `#fopen`. [default: the scene's own]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) write_folder: Option<PathBuf>,
+    /// Lets the names of these files lead out of their folder.
+    #[arg(long)]
+    pub(crate) allow_io: bool,
     /// Refuses a scene with features that would be left out of the picture: radiosity, photons,
     /// media, subsurface.
     #[arg(long)]

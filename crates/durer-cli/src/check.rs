@@ -28,6 +28,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         "  camera      {}",
         if scene.camera.is_some() { "yes" } else { "none: rays can be traced, pictures need one" }
     );
+    let learned = crate::noise::chosen(args.scene.noise)?;
+    let noise =
+        learned.map_or_else(|| "durer's own".to_owned(), |(_, from)| format!("that of POV-Ray {from}"));
+    println!("  noise       {noise}");
     let bounds = geometry.bounds();
     if bounds.is_bounded() {
         let (a, b) = (bounds.min, bounds.max);

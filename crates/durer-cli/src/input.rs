@@ -85,6 +85,9 @@ pub(crate) fn read_options(args: &SceneArgs, (width, height): (u32, u32)) -> Res
         image_height: height,
         limits,
         strict: args.strict,
+        noise: crate::noise::chosen(args.noise)?.map(|(noise, _)| noise),
+        write_folder: args.write_folder.clone(),
+        any_file: args.allow_io,
     })
 }
 
@@ -123,6 +126,22 @@ fn check_ending(scene: &Path) -> Result<(), Failure> {
 }
 
 impl Loaded {
+    /// Saves the files that the scene has written.
+    pub(crate) fn save_written(&self) -> Result<(), Failure> {
+        let Self::Pov(read) = self else { return Ok(()) };
+        for file in &read.written {
+            let failed = |why: &dyn std::fmt::Display| {
+                Failure::file(&file.path, format_args!("the scene's file cannot be written: {why}"))
+            };
+            // A device or a link would lead elsewhere.
+            if std::fs::symlink_metadata(&file.path).is_ok_and(|about| !about.is_file()) {
+                return Err(failed(&"it is there, and is not a regular file"));
+            }
+            std::fs::write(&file.path, &file.text).map_err(|why| failed(&why))?;
+        }
+        Ok(())
+    }
+
     pub(crate) fn scene(&self) -> &Scene {
         match self {
             Self::Pov(read) => &read.scene,

@@ -7,8 +7,10 @@ mod check;
 mod explain;
 mod failure;
 mod input;
+mod noise;
 mod output;
 mod render;
+mod switches;
 mod trace;
 mod view;
 
@@ -17,12 +19,20 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    let arguments = match switches::translated(std::env::args_os().collect()) {
+        Ok(arguments) => arguments,
+        Err(failure) => {
+            eprintln!("{failure}");
+            return failure.exit_code();
+        }
+    };
+    let done = match Cli::parse_from(arguments).command {
         Command::Render(args) => render::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Check(args) => check::run(&args),
         Command::View(args) => view::run(&args),
+        Command::LearnNoise(args) => noise::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -26,6 +26,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     input::with_threads(args.threads, || {
         let loaded = input::load(&args.scene, (width, height))?;
+        loaded.save_written()?;
         if loaded.scene().camera.is_none() {
             return Err(Failure::file(&args.scene.scene, "the scene has no camera, and a picture needs one"));
         }

@@ -216,7 +216,26 @@ impl Parser<'_> {
                     camera.projection = Projection::Cylinder(kind as u8);
                     continue;
                 }
-                Item::Word(Keyword::Normal) => return Err(Error::unsupported(place, "normal of a camera")),
+                Item::Word(Keyword::Normal) => {
+                    self.note_left_out("normal of a camera", place)?;
+                    self.nested(|r| r.normal_block(&crate::texture::Normal::default()))?;
+                    continue;
+                }
+                Item::Word(
+                    Keyword::Aperture | Keyword::BlurSamples | Keyword::Variance | Keyword::Confidence,
+                ) => {
+                    self.note_left_out("focal blur", place)?;
+                    self.float()?;
+                    self.skip_comma()?;
+                    if self.starts_number()? {
+                        self.float()?;
+                    }
+                    continue;
+                }
+                Item::Word(Keyword::FocalPoint) => {
+                    self.vector()?;
+                    continue;
+                }
                 Item::Word(Keyword::Right) => Setting::Right(self.axis("right")?),
                 Item::Word(Keyword::Up) => Setting::Up(self.axis("up")?),
                 Item::Word(Keyword::Direction) => Setting::Direction(self.axis("direction")?),

@@ -283,6 +283,13 @@ impl Parser<'_> {
                 self.next()?;
                 self.camera_value()
             }
+            Keyword::Media | Keyword::Rainbow => {
+                self.next()?;
+                self.leave_out(keyword, place)?;
+                let text = format!("not supported yet: {}", keyword.text());
+                let what = Unsupported { text, place: Some(place), number: false };
+                Ok(Value::Unsupported(Rc::new(what)))
+            }
             Keyword::Function => self.function_block(),
             Keyword::Spline => Ok(Value::Spline(Rc::new(self.spline_value()?))),
             _ => self.object_value(),

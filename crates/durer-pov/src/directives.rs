@@ -35,7 +35,7 @@ impl Parser<'_> {
             // POV-Ray has ignored these since 3.0: the text is read and discarded.
             Directive::Statistics | Directive::Render => self.string("the message").map(drop),
             Directive::Fopen | Directive::Fclose | Directive::Read | Directive::Write => {
-                Err(Error::unsupported(place, &format!("#{}", directive.text())))
+                self.file_directive(directive, place)
             }
         }
     }
@@ -291,6 +291,10 @@ impl Parser<'_> {
         let name = self.file_name()?;
         let at = self.here();
         self.back_to_frame(serial, place)?;
+        if let Some((path, text)) = self.written_file(&name) {
+            let file = self.load_text(path, text)?;
+            return self.enter_file(file, Some(place));
+        }
         let Some(path) = self.library.find(&name) else {
             let names = self.library.names();
             let near = crate::parser::nearest(&name, names.iter().map(String::as_str));

@@ -54,6 +54,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
                 | Vdot
                 | Vlength
                 | VaxisRotate
+                | Vturbulence
                 | Vcross
                 | Vnormalize
                 | Vrotate
@@ -63,7 +64,7 @@ pub(crate) fn begins_expression(keyword: Keyword) -> bool {
 /// Functions that need something that is not supported yet: user-defined functions, noise.
 fn needs_more(keyword: Keyword) -> bool {
     use Keyword::*;
-    matches!(keyword, Prod | Sum | Vturbulence)
+    matches!(keyword, Prod | Sum)
 }
 
 fn constant(keyword: Keyword) -> Option<Terms> {
@@ -247,7 +248,7 @@ impl Parser<'_> {
             }
             Keyword::FileExists => {
                 let name = self.file_name()?;
-                flag(self.library.find(&name).is_some())
+                flag(self.written_file(&name).is_some() || self.library.find(&name).is_some())
             }
             Keyword::Defined => flag(self.defined_name()?),
             Keyword::Dimensions => (self.array_argument()?.sizes.len() as f64).into(),
@@ -258,6 +259,13 @@ impl Parser<'_> {
                 let index = if which >= 1.0 { which as usize - 1 } else { usize::MAX };
                 let size = array.sizes.get(index);
                 (*size.ok_or_else(|| Error::invalid(place, "the array has no such dimension"))? as f64).into()
+            }
+            Keyword::Vturbulence => {
+                let (lambda, omega, octaves) = (self.argument()?, self.argument()?, self.argument()?);
+                let at = self.vector()?;
+                self.count_steps(10, place)?;
+                let noise = self.options.noise.as_deref();
+                crate::noise_pattern::vector_turbulence(noise, [lambda, omega, octaves], at).into()
             }
             Keyword::Vdot => transform::dot(self.vector_argument()?, self.vector_argument()?).into(),
             Keyword::Vlength => transform::length(self.vector_argument()?).into(),

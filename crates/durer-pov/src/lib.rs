@@ -28,6 +28,7 @@ mod declare;
 mod diagnostics;
 mod directives;
 mod expression;
+mod files;
 mod formula;
 mod formulas;
 mod functions;
@@ -61,6 +62,7 @@ mod vector_function;
 mod volume;
 
 pub use crate::diagnostics::{ErrorKind, PovError};
+pub use crate::files::WrittenFile;
 pub use crate::limits::Limits;
 pub use crate::messages::{Message, MessageKind};
 pub use crate::read::{Located, Read, ReadOptions, Sources, read, read_with};

@@ -176,6 +176,10 @@ impl Parser<'_> {
                         return Err(Error::unsupported(lexeme.place, "area_illumination"));
                     }
                 }
+                Item::Word(Keyword::ProjectedThrough) => {
+                    self.note_left_out("projected_through", lexeme.place)?;
+                    self.nested(Self::object_in_braces)?;
+                }
                 Item::Word(Keyword::Photons) => self.skip_photons()?,
                 Item::Word(Keyword::LooksLike) => {
                     let shown = self.nested(Self::object_in_braces)?;

@@ -18,13 +18,40 @@
 //! turbulence, and `a` is agate's own. All this was found from POV-Ray's values, with POV-Ray's own
 //! noise, and agrees with them to rounding.
 
-use durer_math::elementary;
 use durer_math::scale::pow2;
+use durer_math::{F8, elementary, noise};
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 
 use crate::formulas;
 use crate::keywords::Keyword;
 use crate::texture::{Pattern, PatternKind};
+
+/// `vturbulence`: the sum of octaves of vector noise at a point, with the factor of frequency, the
+/// factor of strength, and the number of octaves.
+pub(crate) fn vector_turbulence(
+    learned: Option<&durer_scene::LearnedNoise>,
+    [lambda, omega, octaves]: [f64; 3],
+    p: [f64; 3],
+) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    let (mut weight, mut scale) = (1.0, 1.0);
+    for _ in 0..octaves.trunc().clamp(1.0, MOST_OCTAVES) as u32 {
+        let at = p.map(|x| x * scale);
+        let values = match learned {
+            Some(noise) => noise.vector(durer_math::Point3::new(at[0], at[1], at[2])).to_array(),
+            None => std::array::from_fn(|axis| {
+                let shift = axis.checked_sub(1).map_or([0.0; 3], |i| ELSEWHERE[i]);
+                let [x, y, z]: [F8; 3] = std::array::from_fn(|i| F8::splat(at[i] + shift[i]));
+                noise::values([&x, &y, &z]).0[0]
+            }),
+        };
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += weight * value;
+        }
+        (weight, scale) = (weight * omega, scale * lambda);
+    }
+    sum
+}
 
 /// Steps; `None` if no formula is known or there are too many steps.
 type Made<T> = Option<T>;

@@ -28,8 +28,12 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
         (None, Some(push)) if own.slopes.is_none() => {
             scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount: own.amount }
         }
-        (None, _) if pattern.kind.list_length().is_some() || pattern.kind == PatternKind::Average => {
-            return Ok(None);
+        (None, _) if pattern.kind == PatternKind::Average => return Ok(None),
+        (None, _) if own.is_bump_map && own.slopes.is_none() => {
+            let PatternKind::Ramp(ramp, _) = &pattern.kind else { return Ok(None) };
+            let scene::Ramp::Image(map, value) = &**ramp else { return Ok(None) };
+            let warps = warps_of(&pattern, at)?;
+            scene::NormalBody::Picture { warps, map: map.clone(), value: *value, amount: own.amount }
         }
         (None, _) => scene::NormalBody::Height(Box::new(scene::Height {
             warps: warps_of(&pattern, at)?,

@@ -89,6 +89,7 @@ pub(crate) struct Parser<'a> {
     include_depth: u64,
     macro_depth: u64,
     pub(crate) streams: Vec<u32>,
+    pub(crate) files: crate::files::Files,
     pub(crate) language: crate::settings::Language,
     /// The features of the scene that are left out of the picture.
     pub(crate) left_out: Vec<&'static str>,
@@ -121,6 +122,7 @@ impl<'a> Parser<'a> {
             include_depth: 0,
             macro_depth: 0,
             streams: Vec::new(),
+            files: crate::files::Files::default(),
             language: crate::settings::Language::default(),
             left_out: Vec::new(),
             defaults: Rc::default(),
@@ -138,8 +140,15 @@ impl<'a> Parser<'a> {
         let text = source::read_text(&path, &self.options.limits).map_err(|why| {
             Error::file(from, if from.is_some() { format!("{}: {why}", path.display()) } else { why })
         })?;
+        let file = self.load_text(path.clone(), text)?;
+        self.loaded.insert(path, file);
+        Ok(file)
+    }
+
+    /// Takes `text` as the contents of the file at `path`.
+    pub(crate) fn load_text(&mut self, path: PathBuf, text: String) -> Result<u32> {
         let file = self.sources.len() as u32;
-        let mut source = Source::new(path.clone(), text);
+        let mut source = Source::new(path, text);
         limits::charge_for_good(source.text.len());
         let mut result = crate::lexer::lex(&mut source, file, &mut self.names, &self.options.limits);
         if result.is_ok() {
@@ -151,7 +160,6 @@ impl<'a> Parser<'a> {
             source.tokens.len() * 12 + source.numbers.len() * 8 + source.strings.len() * 32,
         );
         self.sources.push(Rc::new(source));
-        self.loaded.insert(path, file);
         result.map(|()| file)
     }
 

@@ -67,6 +67,7 @@ fn shown(b: &mut Builder, p: [NodeId; 3], pigment: &Pigment) -> std::result::Res
     let kind = match &pigment.body {
         Body::Solid(colour) => return constant(b, colour),
         Body::Patterned(kind) => kind.clone(),
+        Body::Image(_) => return Err(Lack::Formula),
     };
     let pattern = Pattern { kind: kind.clone(), modifiers: pigment.modifiers.clone() };
     let (value, own) = place_and_value(b, p, &pattern)?;

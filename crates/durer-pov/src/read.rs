@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use crate::camera::Camera;
 use crate::diagnostics::{Error, ErrorKind, Place, PovError, Result, lexeme_length};
+use crate::files::WrittenFile;
 use crate::keywords::Keyword;
 use crate::lexer::{Directive, NO_BLOCK};
 use crate::limits::{self, Limits};
@@ -33,6 +34,12 @@ pub struct ReadOptions {
     /// Whether a scene is refused that uses a feature which would be left out of the picture:
     /// `radiosity`, `photons`, `media`, `subsurface`.
     pub strict: bool,
+    /// The noise of textures and of `vturbulence`, if it is not durer's own.
+    pub noise: Option<std::sync::Arc<durer_scene::LearnedNoise>>,
+    /// The folder of the files that the scene writes; `None` for the scene's own.
+    pub write_folder: Option<PathBuf>,
+    /// Whether the names of these files may lead out of their folder.
+    pub any_file: bool,
 }
 
 impl Default for ReadOptions {
@@ -45,6 +52,9 @@ impl Default for ReadOptions {
             image_height: 600,
             limits: Limits::default(),
             strict: false,
+            noise: None,
+            write_folder: None,
+            any_file: false,
         }
     }
 }
@@ -58,6 +68,9 @@ pub struct Read {
     /// A `#warning` that repeats its text is reported once, and once more at the end with the
     /// number of times.
     pub messages: Vec<Message>,
+    /// The files that the scene has written, with `#write`. They are only here: whoever wants them
+    /// saves them.
+    pub written: Vec<WrittenFile>,
     /// The files, for messages about a [`durer_scene::Place`].
     pub sources: Sources,
 }
@@ -170,7 +183,8 @@ fn on_this_thread<'a>(
                 std::sync::Arc::new(text)
             });
             let sources = Sources { files: sources.collect(), main: path.to_path_buf() };
-            Ok(Read { scene, messages, sources })
+            let written = std::mem::take(&mut reader.files.written);
+            Ok(Read { scene, messages, written, sources })
         }
         Err(mut fault) => {
             fault.route.extend(reader.route());
@@ -215,6 +229,7 @@ impl Parser<'_> {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
                 Item::Word(Keyword::Media) => self.leave_out(Keyword::Media, place)?,
+                Item::Word(Keyword::Rainbow) => self.leave_out(Keyword::Rainbow, place)?,
                 Item::Word(Keyword::Background) => self.background()?,
                 Item::Word(Keyword::Fog) => {
                     self.put_back(lexeme);

@@ -326,6 +326,7 @@ impl Parser<'_> {
             }),
             sky,
             fogs: output.fogs,
+            noise: self.options.noise.clone(),
             settings: scene::Settings {
                 assumed_gamma: gamma,
                 version,
@@ -589,6 +590,10 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
                 exponent: mirror.exponent,
                 metallic: mirror.metallic,
             })
+        }),
+        irid: own.irid.map(|[amount, thickness]| {
+            let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
+            scene::Irid { amount, thickness, wavelength }
         }),
         conserve_energy: own.conserve_energy,
     }

@@ -158,17 +158,22 @@ impl Parser<'_> {
 
     /// Skips the block of a feature that is left out of the picture, and warns of that.
     pub(crate) fn leave_out(&mut self, keyword: Keyword, place: Place) -> Result<()> {
-        let word = keyword.text();
-        if self.options.strict {
-            return Err(Error::unsupported(place, word));
-        }
-        if !self.left_out.contains(&word) {
-            self.left_out.push(word);
-            self.notice(place, format!("{word} is not supported yet: the picture is rendered without it"));
-        }
+        self.note_left_out(keyword.text(), place)?;
         let braces = self.braces;
         self.expect(Mark::BraceOpen)?;
         self.skip_to_brace_level(braces)
+    }
+
+    /// Warns once of a feature that the picture is rendered without.
+    pub(crate) fn note_left_out(&mut self, what: &'static str, place: Place) -> Result<()> {
+        if self.options.strict {
+            return Err(Error::unsupported(place, what));
+        }
+        if !self.left_out.contains(&what) {
+            self.left_out.push(what);
+            self.notice(place, format!("{what} is not supported yet: the picture is rendered without it"));
+        }
+        Ok(())
     }
 
     fn noise_generator(&mut self, place: Place) -> Result<()> {

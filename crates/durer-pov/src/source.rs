@@ -132,6 +132,11 @@ impl Library {
         Self { folders }
     }
 
+    /// The scene's own folder.
+    pub(crate) fn home(&self) -> &Path {
+        self.folders.first().map_or(Path::new(""), PathBuf::as_path)
+    }
+
     /// The file called `name`: with exactly this spelling if a folder has one, else with any case
     /// of letters.
     pub(crate) fn find(&self, name: &str) -> Option<PathBuf> {

@@ -140,7 +140,7 @@ pub(crate) fn number_in(text: &str) -> f64 {
 }
 
 /// Resolves the escapes of a literal.
-fn unescape(raw: &str, place: Place) -> Result<String> {
+pub(crate) fn unescape(raw: &str, place: Place) -> Result<String> {
     let mut text = String::with_capacity(raw.len());
     let mut chars = raw.chars();
     while let Some(c) = chars.next() {

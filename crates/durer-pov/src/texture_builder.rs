@@ -52,6 +52,12 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
     let kind = match &own.body {
         Body::Solid(color) => return Ok(scene::Pigment::solid(scene::Colour::from_terms(*color))),
         Body::Patterned(kind) => kind.clone(),
+        Body::Image(map) => {
+            // Only its warps are used.
+            let pattern = Pattern { kind: PatternKind::Average, modifiers: own.modifiers.clone() };
+            let body = scene::PigmentBody::Image(warps_of(&pattern, at)?, Arc::clone(map));
+            return Ok(scene::Pigment { body, placement: placement(&own.modifiers.place, at)? });
+        }
     };
     let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
     let mut made = match own.paint(&pattern.kind) {
@@ -128,17 +134,17 @@ fn plain_pattern<T: Clone, U>(
     mut part: impl FnMut(&T) -> Result<U>,
     blend: impl Fn(&T, &T, f64) -> Result<T>,
 ) -> Result<scene::Pattern<U>> {
-    let cells = match &pattern.kind {
-        PatternKind::Checker => scene::Cells::Checker,
-        PatternKind::Hexagon => scene::Cells::Hexagon,
-        PatternKind::Square => scene::Cells::Square,
-        PatternKind::Triangular => scene::Cells::Triangular,
-        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(*size), mortar: *mortar },
-        _ => {
+    let cells = match cells_of(&pattern.kind) {
+        Some(cells) => cells,
+        None => {
             let entries = map.entries.iter().map(|(at, item)| Ok((*at, part(item)?)));
             let entries = entries.collect::<Result<Vec<_>>>()?;
             if pattern.kind == PatternKind::Average {
                 return mean(entries, at);
+            }
+            if let PatternKind::Materials(map) = &pattern.kind {
+                let entries = entries.into_iter().map(|(_, entry)| entry).collect();
+                return Ok(scene::Pattern::Image { map: Arc::clone(map), entries });
             }
             return Ok(scene::Pattern::Map { value: value_of(pattern, at)?, entries });
         }
@@ -158,6 +164,18 @@ fn plain_pattern<T: Clone, U>(
     };
     let entries = (0..map.entries.len()).map(|number| part(&entry(number)?)).collect::<Result<_>>()?;
     Ok(scene::Pattern::Cells { cells, entries })
+}
+
+/// How the pattern of a list divides space.
+fn cells_of(kind: &PatternKind) -> Option<scene::Cells> {
+    Some(match kind {
+        PatternKind::Checker => scene::Cells::Checker,
+        PatternKind::Hexagon => scene::Cells::Hexagon,
+        PatternKind::Square => scene::Cells::Square,
+        PatternKind::Triangular => scene::Cells::Triangular,
+        PatternKind::Brick { size, mortar } => scene::Cells::Brick { size: vector(*size), mortar: *mortar },
+        _ => return None,
+    })
 }
 
 fn mean<U>(entries: Vec<(f64, U)>, at: Place) -> Result<scene::Pattern<U>> {
@@ -210,8 +228,15 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         | PatternKind::Hexagon
         | PatternKind::Square
         | PatternKind::Triangular
-        | PatternKind::Brick { .. }
-        | PatternKind::Average => return Err(Error::invalid(at, "this pattern has no value at a point")),
+        | PatternKind::Brick { .. } => {
+            let cells = cells_of(&pattern.kind);
+            return cells
+                .map(scene::Ramp::Kind)
+                .ok_or_else(|| Error::invalid(at, "this pattern has no value"));
+        }
+        PatternKind::Materials(_) | PatternKind::Average => {
+            return Err(Error::invalid(at, "this pattern has no value at a point"));
+        }
     };
     Ok(match word {
         Keyword::Spherical => scene::Ramp::Spherical,

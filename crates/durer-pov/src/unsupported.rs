@@ -11,24 +11,17 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
         AaLevel
             | AaThreshold
             | Absorption
-            | All
             | Alpha
             | Altitude
             | AlwaysSample
             | Aoi
-            | Aperture
-            | Append
             | ArcAngle
             | AreaIllumination
             | Autostop
-            | BlurSamples
-            | Bmp
             | Bokeh
             | Brightness
-            | BumpMap
             | Collect
             | Composite
-            | Confidence
             | Count
             | Density
             | DensityFile
@@ -37,30 +30,18 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Eccentricity
             | ErrorBound
             | ExpandThresholds
-            | Exr
             | Extinction
             | FalloffAngle
-            | FocalPoint
-            | Gamma
             | Gather
-            | Gif
             | GlobalLights
             | GrayThreshold
-            | Hdr
             | Iff
-            | ImageMap
-            | ImagePattern
             | Importance
             | InteriorTexture
-            | Interpolate
             | Intervals
-            | Irid
-            | Jpeg
             | LightGroup
             | LoadFile
             | LowErrorFactor
-            | MapType
-            | MaterialMap
             | MaxSample
             | MaximumReuse
             | Method
@@ -69,21 +50,14 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NumberOfSides
             | NumberOfTiles
             | Omnimax
-            | Once
             | PassThrough
             | Pattern
             | Pavement
-            | Pgm
-            | Png
             | Pot
-            | Ppm
-            | Premultiplied
             | PretraceEnd
             | PretraceStart
             | Prod
-            | ProjectedThrough
             | Pwr
-            | Rainbow
             | Ratio
             | Reciprocal
             | RecursionLimit
@@ -101,22 +75,11 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spacing
             | Sum
             | Target
-            | Tga
-            | Thickness
-            | Tiff
-            | Tile2
-            | Tiles
             | Tiling
             | Translucency
             | Uint16be
             | Uint16le
             | Uint8
-            | UseAlpha
-            | UseColor
-            | UseIndex
-            | UvMapping
-            | Variance
-            | Vturbulence
             | Width
             | Xyz
     )

@@ -188,6 +188,8 @@ pub(crate) enum Value {
     Spline(Rc<crate::spline::Spline>),
     /// A parameter of the function that is being read.
     Parameter(u32),
+    /// An open file, by its number.
+    File(usize),
     Unsupported(Rc<Unsupported>),
 }
 
@@ -224,6 +226,7 @@ impl Value {
             Self::VectorFunction(_) => "a function of vectors",
             Self::Spline(_) => "a spline",
             Self::Parameter(_) => "a function's parameter",
+            Self::File(_) => "an open file",
             Self::Unsupported(_) => "something not supported yet",
         }
     }

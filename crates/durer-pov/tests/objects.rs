@@ -158,7 +158,9 @@ fn maps_keep_the_order_of_the_text() {
     let values = |i: usize| match pigment(&scene, i).body {
         PigmentBody::Colours(pattern) => match *pattern {
             Pattern::Map { entries, .. } => entries.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
-            Pattern::Cells { .. } | Pattern::Mean(_) | Pattern::Warped { .. } => panic!("no map"),
+            Pattern::Cells { .. } | Pattern::Image { .. } | Pattern::Mean(_) | Pattern::Warped { .. } => {
+                panic!("no map")
+            }
         },
         _ => panic!("no colours"),
     };

@@ -3,7 +3,10 @@
 //! Of the light from a distance `s`, the fraction `t = exp(-d/D)` comes through, where `D` is the
 //! fog's distance and `d` the integral of its density along the way: `s` for fog that is the same
 //! everywhere. The density of a layer on the ground depends on the height `h` alone, so that
-//! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density.
+//! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density. With turbulence it is
+//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p` half-way,
+//! whose coordinates are multiplied by the turbulence, and `k` the depth of turbulence. This was
+//! found from POV-Ray's pictures.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -12,7 +15,7 @@ use durer_scene::{Fog, GroundFog, Rgb};
 
 use crate::lanes::Rgb8;
 use crate::texture::Stir;
-use crate::vector::{dot, length};
+use crate::vector::dot;
 
 /// A [`Fog`] with its constants precomputed.
 #[derive(Clone, Debug)]
@@ -40,6 +43,9 @@ pub(crate) struct Veil {
     pub(crate) added: Rgb8,
 }
 
+/// The scene language sees no farther than this.
+const FARTHEST: f64 = 1e7;
+
 /// Below this difference of heights a ray is horizontal.
 const LEVEL: f64 = 1e-9;
 
@@ -59,7 +65,7 @@ impl RenderFog {
     /// The fraction of light that comes through, before the fog's own least fraction.
     fn through(&self, ways: &Ways) -> F8 {
         let mut through = F8::ZERO;
-        let stirred = self.stir.as_ref().map(|stir| self.factor(stir, ways));
+        let stirred = self.stir.as_ref().map(|stir| halfway(stir, ways));
         for i in ways.live.lanes() {
             let s = ways.distance.0[i];
             let way = match &self.ground {
@@ -69,17 +75,14 @@ impl RenderFog {
                     ground_way(ground, dot(ground.up, origin), dot(ground.up, direction), s)
                 }
             };
-            let way = way * stirred.map_or(1.0, |factor| factor.0[i]);
-            through.0[i] = elementary::exp(-way / self.distance);
+            let depth = way / self.distance;
+            let width = stirred.map_or(1.0, |noise| {
+                let part = (noise.0[i] * self.depth).min(1.0);
+                1.0 - part * elementary::exp(-s / self.distance)
+            });
+            through.0[i] = elementary::exp(-depth * width);
         }
         through
-    }
-
-    /// The factor by which turbulence changes distances.
-    fn factor(&self, stir: &Stir, ways: &Ways) -> F8 {
-        let reach = ways.distance.map(|s| if s.is_finite() { s } else { 0.0 }) * self.depth;
-        let at = ways.origin + ways.direction * reach;
-        stir.scalar(at) * length(stir.amount)
     }
 
     fn veil(&self, ways: &Ways) -> Veil {
@@ -89,6 +92,14 @@ impl RenderFog {
         let passed = colour.map(|c| t * (c * filter + (F8::ONE - filter)));
         Veil { passed, added: colour * (F8::ONE - t) }
     }
+}
+
+/// The noise half-way, at the point whose coordinates are multiplied by the turbulence.
+fn halfway(stir: &Stir, ways: &Ways) -> F8 {
+    let half = ways.distance.map(|s| if s < FARTHEST { s } else { FARTHEST }) * 0.5;
+    let Vec3 { x, y, z } = (ways.origin + ways.direction * half).to_vec();
+    let Vec3 { x: a, y: b, z: c } = stir.amount;
+    stir.scalar(Point3::new(x * a, y * b, z * c))
 }
 
 /// What all fog does to the light from behind it; `None` without fog.

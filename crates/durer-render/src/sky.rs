@@ -13,13 +13,13 @@ pub(crate) struct Sky {
     /// The layers of the sky, the lowest first.
     layers: Box<[RenderPigment]>,
     emission: Rgb,
-    /// Whether the opacity of a layer uses its filter times its greatest channel.
-    filter_by_colour: bool,
+    /// Whether a layer filters all channels alike, as in scenes before version 3.7.
+    filters_grey: bool,
 }
 
 impl Sky {
     /// Prepares the background and the sky of a scene.
-    pub(crate) fn new(scene: &Scene, filter_by_colour: bool) -> Result<Self, AffineError> {
+    pub(crate) fn new(scene: &Scene, filters_grey: bool) -> Result<Self, AffineError> {
         let background = scene.background.0;
         let sky = scene.sky.as_ref();
         let pigments = sky.map_or(&[][..], |sky| &sky.pigments);
@@ -29,7 +29,7 @@ impl Sky {
             background: background.rgb * (1.0 - background.transmit),
             layers: layers.collect::<Result<_, _>>()?,
             emission: sky.map_or(Rgb::WHITE, |sky| sky.emission),
-            filter_by_colour,
+            filters_grey,
         })
     }
 
@@ -46,11 +46,9 @@ impl Sky {
         let mut seen = Rgb8::splat(self.background);
         for layer in &self.layers {
             let colour: Colour8 = layer.colours(p, live);
-            let filtering = match self.filter_by_colour {
-                true => colour.filter * colour.rgb.greatest(),
-                false => colour.filter,
-            };
-            seen = colour.rgb * emission * (F8::ONE - filtering - colour.transmit) + seen * colour.passed();
+            let clear = colour.filter + colour.transmit;
+            let own = colour.rgb * emission * (F8::ONE - clear);
+            seen = own + if self.filters_grey { seen * clear } else { seen * colour.passed() };
         }
         seen
     }

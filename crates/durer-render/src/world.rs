@@ -13,7 +13,7 @@ use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
 use crate::sky::Sky;
-use crate::texture::RenderTexture;
+use crate::texture::{Grains, RenderTexture, building_with};
 
 /// A scene prepared for rendering: built once, then shared by all threads.
 pub struct World {
@@ -72,6 +72,11 @@ const NEW_OPACITY: f64 = 3.7;
 impl World {
     /// Builds the geometry of a scene and prepares its looks, lights and camera.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
+        let grains = scene.noise.as_ref().map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
+        building_with(grains, || Self::built(scene))
+    }
+
+    fn built(scene: &Scene) -> Result<Self, WorldError> {
         let lowered = scene.lower_for_pictures()?;
         let settings = &scene.settings;
         let mut paints = Vec::new();

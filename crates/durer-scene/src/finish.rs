@@ -36,6 +36,8 @@ pub struct Finish {
     pub crand: f64,
     /// The reflection, if there is one.
     pub reflection: Option<Box<Reflection>>,
+    /// The interference of a thin film, if there is one.
+    pub irid: Option<Irid>,
     /// Whether reflected light is subtracted from the light that passes.
     pub conserve_energy: bool,
 }
@@ -58,9 +60,23 @@ impl Default for Finish {
             metallic: 0.0,
             crand: 0.0,
             reflection: None,
+            irid: None,
             conserve_energy: false,
         }
     }
+}
+
+/// A thin film on a surface: light that is scattered is multiplied by
+/// `1 + amount cos(2 pi thickness (cos a + cos b) / wavelength)` for the angles of the light and of
+/// the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Irid {
+    /// The strength.
+    pub amount: f64,
+    /// The thickness, in the unit of the wavelengths.
+    pub thickness: f64,
+    /// The wavelengths of red, green and blue light.
+    pub wavelength: Rgb,
 }
 
 /// How a surface reflects its surroundings.

@@ -1,6 +1,8 @@
 //! Normals that look bumpy: perturbations of a surface's normal.
 
-use crate::{Pattern, Placement, PointWarp, Ripples, Value};
+use std::sync::Arc;
+
+use crate::{ImageMap, ImageValue, Pattern, Placement, PointWarp, Ripples, Value};
 
 /// A perturbation of a surface's normal at each point of space.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +27,18 @@ pub enum NormalBody {
         /// The vector.
         push: Push,
         /// Its factor.
+        amount: f64,
+    },
+    /// The differences of a picture's values from pixel to pixel are subtracted from the normal along
+    /// the picture's sides.
+    Picture {
+        /// Maps of the point before.
+        warps: Vec<PointWarp>,
+        /// The picture.
+        map: Arc<ImageMap>,
+        /// What its values are.
+        value: ImageValue,
+        /// The factor of the differences.
         amount: f64,
     },
     /// Other normals, selected or mixed by a pattern. They are placed in this normal's space.

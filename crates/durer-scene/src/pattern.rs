@@ -1,8 +1,10 @@
 //! Patterns: functions of the point that select or mix entries.
 
+use std::sync::Arc;
+
 use durer_math::Vec3;
 
-use crate::{PointWarp, Ramp};
+use crate::{ImageMap, PointWarp, Ramp};
 
 /// Selects or mixes entries `T` (colours, pigments or textures) by position.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,13 @@ pub enum Pattern<T> {
         /// Positions in the map with their entries, in the order written; not empty.
         entries: Vec<(f64, T)>,
     },
+    /// The index of a picture's pixel selects the entry; after the last one comes the first.
+    Image {
+        /// The picture.
+        map: Arc<ImageMap>,
+        /// The entries; not empty.
+        entries: Vec<T>,
+    },
     /// Everywhere the mean of all entries, each with its weight.
     Mean(Vec<(f64, T)>),
     /// Another pattern, seen through maps of the point, which need not be affine.
@@ -36,7 +45,7 @@ impl<T> Pattern<T> {
     /// The entries, in the order written.
     pub fn entries(&self) -> impl Iterator<Item = &T> {
         let (cells, map) = match self.plain() {
-            Self::Cells { entries, .. } => (&entries[..], &[][..]),
+            Self::Cells { entries, .. } | Self::Image { entries, .. } => (&entries[..], &[][..]),
             Self::Map { entries, .. } | Self::Mean(entries) => (&[][..], &entries[..]),
             Self::Warped { .. } => (&[][..], &[][..]),
         };
@@ -47,6 +56,7 @@ impl<T> Pattern<T> {
     pub fn lacks_entries(&self) -> bool {
         match self.plain() {
             Self::Cells { cells, entries } => entries.len() < cells.kinds(),
+            Self::Image { entries, .. } => entries.is_empty(),
             Self::Map { entries, .. } | Self::Mean(entries) => entries.is_empty(),
             Self::Warped { .. } => true,
         }

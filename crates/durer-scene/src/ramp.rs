@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::Vec3;
 use durer_surfaces::tape::Formula;
 
-use crate::{Pigment, Turbulence};
+use crate::{Cells, ImageMap, ImageValue, Pigment, Turbulence};
 
 /// The function that a continuous pattern grows with.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,8 +51,12 @@ pub enum Ramp {
     Crackle(Crackle),
     /// The fate of points of the plane `z = 0` in an iteration.
     Fractal(Fractal),
+    /// The number of the kind of a cell: 0, 1, 2 ...
+    Kind(Cells),
     /// A formula of x, y and z.
     Formula(Arc<Formula>),
+    /// A number of a picture.
+    Image(Arc<ImageMap>, ImageValue),
     /// The grey value of a pigment.
     Pigment(Box<Pigment>),
 }

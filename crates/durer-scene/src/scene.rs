@@ -1,6 +1,8 @@
 //! The scene as a whole, and its settings.
 
-use crate::{Camera, Colour, Fog, Light, Object, Pigment, Rgb};
+use std::sync::Arc;
+
+use crate::{Camera, Colour, Fog, LearnedNoise, Light, Object, Pigment, Rgb};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,6 +21,8 @@ pub struct Scene {
     pub fogs: Vec<Fog>,
     /// The scene's own settings.
     pub settings: Settings,
+    /// The noise of textures, if it is not durer's own.
+    pub noise: Option<Arc<LearnedNoise>>,
 }
 
 /// The colour that rays without a hit see.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Affine, AffineError};
 use durer_surfaces::Blob;
 
-use crate::{Colour, Finish, Normal, Pattern, Placement, Rgb};
+use crate::{Colour, Finish, ImageMap, Normal, Pattern, Placement, PointWarp, Rgb};
 
 /// The look of a surface: layers, or a pattern of textures.
 ///
@@ -140,6 +140,8 @@ pub enum PigmentBody {
     /// Other pigments, selected or mixed by a pattern; a map mixes their colours. They are placed
     /// in this pigment's space.
     Pigments(Box<Pattern<Pigment>>),
+    /// A picture, seen through maps of the point, in the order in which they are applied.
+    Image(Vec<PointWarp>, Arc<ImageMap>),
 }
 
 impl Pigment {
@@ -165,13 +167,14 @@ impl Pigment {
             PigmentBody::Solid(colour) => opaque(colour),
             PigmentBody::Colours(pattern) => pattern.entries().all(opaque),
             PigmentBody::Pigments(pattern) => pattern.entries().all(Self::is_opaque),
+            PigmentBody::Image(_, map) => !map.once && map.image.is_opaque(),
         }
     }
 
     /// Whether a pattern in it has fewer entries than kinds.
     fn has_empty_pattern(&self) -> bool {
         match &self.body {
-            PigmentBody::Solid(_) => false,
+            PigmentBody::Solid(_) | PigmentBody::Image(..) => false,
             PigmentBody::Colours(pattern) => pattern.lacks_entries(),
             PigmentBody::Pigments(p) => p.lacks_entries() || p.entries().any(Self::has_empty_pattern),
         }

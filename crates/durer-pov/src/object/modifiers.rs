@@ -20,7 +20,7 @@ impl Parser<'_> {
                 object.transform(&by);
                 continue;
             }
-            if self.look(object)? {
+            if self.look(object)? || self.uv_mapping()? {
                 continue;
             }
             let lexeme = self.next()?;

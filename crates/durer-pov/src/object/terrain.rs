@@ -53,7 +53,7 @@ impl Parser<'_> {
         let mut format = None;
         if let Some(word) = self.peek_word()? {
             let at = self.here();
-            format = Format::from_keyword(word);
+            format = Format::from_keyword(word).filter(|_| !is_other_format(word));
             if format.is_some() {
                 self.next()?;
             } else if is_other_format(word) {
@@ -75,14 +75,7 @@ impl Parser<'_> {
             );
             return Err(Error::invalid(at, text));
         };
-        let Some(path) = self.library.find(&name) else {
-            let names = self.library.names();
-            let near = crate::parser::nearest(&name, names.iter().map(String::as_str));
-            let near = near.map_or_else(String::new, |near| format!(" (did you mean \"{near}\"?)"));
-            let folders = self.library.listed();
-            let text = format!("there is no picture \"{name}\"{near}; searched: {folders}");
-            return Err(Error::file(Some(at), text));
-        };
+        let path = self.picture_path(&name, at)?;
         let may_hold = |size: [usize; 2]| match check_size(size) {
             Some(text) => Err(Fault::Text(text)),
             None => self.check_memory(bytes_of(size, 2), at).map_err(Fault::Limit),

@@ -7,7 +7,7 @@ use super::{Fault, MayHold, Picture, Result, fault, of_colour, of_grey, of_index
 /// Bytes that a decoder may take beside the picture.
 const DECODER: usize = 1 << 30;
 
-fn broken<T>(error: impl std::fmt::Display) -> Result<T> {
+pub(super) fn broken<T>(error: impl std::fmt::Display) -> Result<T> {
     let text = error.to_string();
     fault(format!("cannot be unpacked: {}", text.trim_end_matches('.')))
 }

@@ -7,6 +7,7 @@
 //! - In a colour picture red is the high byte and green the low one; blue and alpha say nothing.
 //! - In a picture with a palette the index is the high byte; its colours say nothing.
 
+pub(crate) mod colours;
 mod compressed;
 mod plain;
 
@@ -51,6 +52,9 @@ pub(crate) enum Format {
     Gif,
     Bmp,
     Jpeg,
+    Tiff,
+    Exr,
+    Hdr,
 }
 
 impl Format {
@@ -63,6 +67,9 @@ impl Format {
             Keyword::Gif => Self::Gif,
             Keyword::Bmp => Self::Bmp,
             Keyword::Jpeg => Self::Jpeg,
+            Keyword::Tiff => Self::Tiff,
+            Keyword::Exr => Self::Exr,
+            Keyword::Hdr => Self::Hdr,
             _ => return None,
         })
     }
@@ -77,6 +84,9 @@ impl Format {
             "gif" => Self::Gif,
             "bmp" => Self::Bmp,
             "jpg" | "jpeg" => Self::Jpeg,
+            "tif" | "tiff" => Self::Tiff,
+            "exr" => Self::Exr,
+            "hdr" => Self::Hdr,
             _ => return None,
         })
     }
@@ -89,6 +99,9 @@ impl Format {
             Self::Gif => "a GIF file",
             Self::Bmp => "a BMP file",
             Self::Jpeg => "a JPEG file",
+            Self::Tiff => "a TIFF file",
+            Self::Exr => "an OpenEXR file",
+            Self::Hdr => "a Radiance HDR file",
         }
     }
 
@@ -101,6 +114,9 @@ impl Format {
             Self::Gif => bytes.starts_with(b"GIF8"),
             Self::Bmp => bytes.starts_with(b"BM"),
             Self::Jpeg => bytes.starts_with(b"\xff\xd8"),
+            Self::Tiff => bytes.starts_with(b"II") || bytes.starts_with(b"MM"),
+            Self::Exr => bytes.starts_with(b"\x76\x2f\x31\x01"),
+            Self::Hdr => bytes.starts_with(b"#?"),
         }
     }
 }
@@ -121,6 +137,7 @@ pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHo
         Format::Gif => compressed::gif(&bytes, may_hold),
         Format::Bmp => plain::bmp(&bytes, may_hold),
         Format::Jpeg => compressed::jpeg(&bytes, may_hold),
+        Format::Tiff | Format::Exr | Format::Hdr => fault("is no picture of heights that durer reads"),
     }
 }
 

@@ -45,6 +45,8 @@ pub(crate) struct Finish {
     pub(crate) metallic: f64,
     pub(crate) crand: f64,
     pub(crate) conserve_energy: bool,
+    /// The amount and the thickness of a thin film.
+    pub(crate) irid: Option<[f64; 2]>,
     pub(crate) reflection: Reflection,
 }
 
@@ -66,6 +68,7 @@ impl Default for Finish {
             metallic: 0.0,
             crand: 0.0,
             conserve_energy: false,
+            irid: None,
             reflection: Reflection::default(),
         }
     }
@@ -128,11 +131,34 @@ impl Parser<'_> {
                 Keyword::ConserveEnergy => finish.conserve_energy = self.switch_value()?,
                 Keyword::ReflectionExponent => finish.reflection.exponent = self.exponent()?,
                 Keyword::Reflection => self.reflection(&mut finish.reflection)?,
+                Keyword::Irid => self.irid(&mut finish.irid)?,
                 Keyword::Subsurface => self.leave_out(keyword, place)?,
                 _ => return Err(self.unexpected(&lexeme, "a part of a finish")),
             }
             self.skip_comma()?;
         }
+    }
+
+    /// Reads `irid { amount thickness T turbulence V }`.
+    fn irid(&mut self, irid: &mut Option<[f64; 2]>) -> Result<()> {
+        self.expect(Mark::BraceOpen)?;
+        let amount = self.float()?;
+        let mut thickness = irid.map_or(0.0, |[_, thickness]| thickness);
+        loop {
+            let lexeme = self.next()?;
+            match &lexeme.item {
+                Item::Mark(Mark::BraceClose) => break,
+                Item::Word(Keyword::Thickness) => thickness = self.float()?,
+                Item::Word(Keyword::Turbulence) => {
+                    if self.vector()? != [0.0; 3] {
+                        self.note_left_out("turbulence of irid", lexeme.place)?;
+                    }
+                }
+                _ => return Err(self.unexpected(&lexeme, "a part of irid")),
+            }
+        }
+        *irid = (amount != 0.0).then_some([amount, thickness]);
+        Ok(())
     }
 
     fn exponent(&mut self) -> Result<f64> {

@@ -187,6 +187,51 @@ impl Parser<'_> {
         Ok(Texture::Patterned { pattern: self.plain_pattern(kind), map })
     }
 
+    /// Reads what follows `tiles`, the old words for a checker of textures.
+    pub(crate) fn tiles(&mut self) -> Result<Texture> {
+        self.expect(Mark::BraceOpen)?;
+        let mut items = Vec::new();
+        for _ in 0..2 {
+            let lexeme = self.next()?;
+            if !matches!(lexeme.item, Item::Word(Keyword::Texture | Keyword::Tile2)) {
+                return Err(self.unexpected(&lexeme, "texture, or tile2 and then texture"));
+            }
+            if matches!(lexeme.item, Item::Word(Keyword::Texture)) {
+                self.put_back(lexeme);
+            }
+            if self.peek_word()? != Some(Keyword::Texture) {
+                let lexeme = self.next()?;
+                return Err(self.unexpected(&lexeme, "texture"));
+            }
+            items.push(self.texture_value()?);
+        }
+        self.expect(Mark::BraceClose)?;
+        // The second texture is that of the checker's first cells.
+        items.reverse();
+        let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
+        let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));
+        Ok(Texture::Patterned { pattern: self.plain_pattern(PatternKind::Checker), map })
+    }
+
+    /// Reads what follows `material_map`: a picture, and a texture for each of its indices.
+    pub(crate) fn material_map(&mut self) -> Result<Texture> {
+        let mut items = Vec::new();
+        let map = self.image_block_with(|r| {
+            let here = r.take_word(Keyword::Texture)?;
+            if here {
+                items.push(r.nested(Self::texture_block)?);
+                r.check_entries(items.len())?;
+            }
+            Ok(here)
+        })?;
+        if items.is_empty() {
+            return Err(Error::invalid(self.here(), "a material_map needs textures"));
+        }
+        let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
+        let list = Rc::new(Map::list(items, self.check_map_depth(depth)?));
+        Ok(Texture::Patterned { pattern: self.plain_pattern(PatternKind::Materials(map.map)), map: list })
+    }
+
     /// Reads `texture_map {}` inside a patterned texture.
     pub(crate) fn texture_map_item(&mut self, is_mean: bool, map: &mut Rc<Map<Texture>>) -> Result<bool> {
         let here = self.take_word(Keyword::TextureMap)?;

@@ -1,6 +1,7 @@
 //! Textures: pigments, finishes, layers, materials, and the grammar of their blocks.
 
 mod finish;
+mod images;
 mod interior;
 mod maps;
 mod normal;
@@ -103,6 +104,18 @@ impl Parser<'_> {
         }
     }
 
+    /// Skips `uv_mapping`, with a warning: the texture is shown by its place in space.
+    pub(crate) fn uv_mapping(&mut self) -> Result<bool> {
+        let here = self.take_word(Keyword::UvMapping)?;
+        if here {
+            let place = self.here();
+            if self.switch_value()? {
+                self.note_left_out("uv_mapping", place)?;
+            }
+        }
+        Ok(here)
+    }
+
     /// Puts `above` on top of `below`.
     pub(crate) fn laid_on(&self, below: Texture, above: Texture) -> Result<Texture> {
         match (below, above) {
@@ -134,6 +147,9 @@ impl Parser<'_> {
             if self.layer_item(&mut texture)? {
                 continue;
             }
+            if self.uv_mapping()? {
+                continue;
+            }
             if self.take_word(Keyword::NoBumpScale)? {
                 let keeps_slope = self.switch_value()?;
                 if let Texture::Layers(layers) = &mut texture {
@@ -141,6 +157,14 @@ impl Parser<'_> {
                         Rc::make_mut(normal).keeps_slope = keeps_slope;
                     }
                 }
+                continue;
+            }
+            if self.take_word(Keyword::Tiles)? {
+                texture = self.nested(Self::tiles)?;
+                continue;
+            }
+            if self.take_word(Keyword::MaterialMap)? {
+                texture = self.nested(Self::material_map)?;
                 continue;
             }
             if let Some(kind) = self.pattern_kind(None)? {

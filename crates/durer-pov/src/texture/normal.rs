@@ -25,6 +25,8 @@ pub(crate) struct Normal {
     pub(crate) keeps_slope: bool,
     pub(crate) slopes: Option<Rc<SlopeMap>>,
     pub(crate) normals: Option<Rc<Map<Normal>>>,
+    /// Whether the pattern is the picture of a `bump_map`.
+    pub(crate) is_bump_map: bool,
 }
 
 /// What perturbs a normal.
@@ -50,6 +52,7 @@ impl Default for Normal {
             keeps_slope: false,
             slopes: None,
             normals: None,
+            is_bump_map: false,
         }
     }
 }
@@ -92,7 +95,8 @@ impl Parser<'_> {
                 normal.transform(&by);
                 continue;
             }
-            if let Some(kind) = self.normal_kind(&normal)? {
+            let mut bump_size = None;
+            if let Some(kind) = self.normal_kind(&normal, &mut bump_size)? {
                 if normal.kind.is_none() {
                     self.set_noise_generator(&mut normal.modifiers);
                 }
@@ -103,9 +107,13 @@ impl Parser<'_> {
                     }
                 }
                 normal.kind = Some(kind);
-                if let Some(amount) = self.amount()? {
+                normal.is_bump_map = bump_size.is_some();
+                if let Some(amount) = self.amount()?.or(bump_size.flatten()) {
                     normal.amount = amount;
                 }
+                continue;
+            }
+            if self.uv_mapping()? {
                 continue;
             }
             if !self.normal_modifier(&mut normal)? {
@@ -120,7 +128,18 @@ impl Parser<'_> {
     }
 
     /// Reads the word of a pattern, and what belongs to it.
-    fn normal_kind(&mut self, normal: &Normal) -> Result<Option<NormalKind>> {
+    fn normal_kind(
+        &mut self,
+        normal: &Normal,
+        bump_size: &mut Option<Option<f64>>,
+    ) -> Result<Option<NormalKind>> {
+        if self.take_word(Keyword::BumpMap)? {
+            let place = self.here();
+            let read = self.nested(Self::image_block)?;
+            *bump_size = Some(read.bump_size);
+            let ramp = durer_scene::Ramp::Image(read.map, read.value);
+            return Ok(Some(NormalKind::Pattern(PatternKind::Ramp(Rc::new(ramp), place))));
+        }
         if !self.take_word(Keyword::Facets)? {
             let kind = self.pattern_kind(normal.pattern().cloned())?;
             return Ok(kind.map(NormalKind::Pattern));

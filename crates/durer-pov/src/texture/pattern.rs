@@ -1,6 +1,7 @@
 //! Patterns: they select or mix the entries of a list or map by position.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
@@ -27,6 +28,8 @@ pub(crate) enum PatternKind {
     Ramp(Rc<durer_scene::Ramp>, Place),
     /// The grey value of a pigment.
     GreyOf(Rc<super::Pigment>),
+    /// Textures by the indices of a picture.
+    Materials(Arc<durer_scene::ImageMap>),
     /// The mean of all entries of a map.
     Average,
 }
@@ -39,7 +42,12 @@ impl PatternKind {
             Self::Hexagon => Some(3),
             Self::Square => Some(4),
             Self::Triangular => Some(6),
-            Self::Gradient(_) | Self::Written(..) | Self::Ramp(..) | Self::GreyOf(_) | Self::Average => None,
+            Self::Gradient(_)
+            | Self::Written(..)
+            | Self::Ramp(..)
+            | Self::GreyOf(_)
+            | Self::Materials(_)
+            | Self::Average => None,
         }
     }
 

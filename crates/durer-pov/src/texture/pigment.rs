@@ -1,6 +1,7 @@
 //! Pigments: the colour at each point.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::pattern::PatternModifiers;
 use super::{ColorMap, Map, PatternKind};
@@ -39,6 +40,8 @@ pub(crate) enum Body {
     Solid(Colour),
     /// Colours or pigments, selected or mixed by a pattern.
     Patterned(PatternKind),
+    /// A picture.
+    Image(Arc<durer_scene::ImageMap>),
 }
 
 impl Default for Body {
@@ -69,7 +72,7 @@ impl Pigment {
     /// The nesting depth of maps.
     pub(crate) fn depth(&self) -> u32 {
         let own = match &self.body {
-            Body::Solid(_) => 0,
+            Body::Solid(_) | Body::Image(_) => 0,
             Body::Patterned(PatternKind::GreyOf(pigment)) => 1 + pigment.depth(),
             Body::Patterned(_) => 1,
         };
@@ -82,7 +85,7 @@ impl Pigment {
     /// The current pattern, if there is one.
     fn kind(&self) -> Option<&PatternKind> {
         match &self.body {
-            Body::Solid(_) => None,
+            Body::Solid(_) | Body::Image(_) => None,
             Body::Patterned(kind) => Some(kind),
         }
     }
@@ -194,12 +197,20 @@ impl Parser<'_> {
                 pigment.body = Body::Patterned(kind);
                 continue;
             }
+            if !chosen && self.take_word(Keyword::ImageMap)? {
+                chosen = true;
+                if pigment.kind().is_none() {
+                    self.set_noise_generator(&mut pigment.modifiers);
+                }
+                pigment.body = Body::Image(self.nested(Self::image_block)?.map);
+                continue;
+            }
             if solid {
                 pigment.body = Body::Solid(self.colour()?);
                 continue;
             }
             let kind = match &mut pigment.body {
-                Body::Solid(_) => None,
+                Body::Solid(_) | Body::Image(_) => None,
                 Body::Patterned(kind) => Some(kind),
             };
             if self.pattern_modifier(kind, &mut pigment.modifiers)? {
@@ -208,6 +219,9 @@ impl Parser<'_> {
             if let Body::Patterned(kind) = &pigment.body
                 && self.paint_item(kind, &mut pigment.paint)?
             {
+                continue;
+            }
+            if self.uv_mapping()? {
                 continue;
             }
             if self.take_word(Keyword::QuickColor)? {

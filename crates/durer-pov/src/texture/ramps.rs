@@ -48,6 +48,11 @@ impl Parser<'_> {
                 Ramp::Fractal(self.fractal(map)?)
             }
             Keyword::Function => return self.function_kind(place).map(Some),
+            Keyword::ImagePattern => {
+                self.next()?;
+                let read = self.image_block()?;
+                Ramp::Image(read.map, read.value)
+            }
             Keyword::PigmentPattern => {
                 self.next()?;
                 let pigment = self.nested(|r| r.pigment_block(&super::Pigment::default()))?;

@@ -11,7 +11,9 @@ use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::dot;
 use crate::world::World;
-use durer_math::{F8, Isa, M8, Point3};
+use core::f64::consts::TAU;
+use durer_math::{F8, Isa, M8, Point3, elementary};
+use durer_scene::Irid;
 
 /// Computes the direct light on shading points.
 #[derive(Default)]
@@ -63,9 +65,16 @@ impl<'w> Lamps<'w> {
                 if let Some(views) = coats.bent(k) {
                     self.turn(views, (double, behind));
                 }
+                let before: Vec<Rgb8> = match finish.irid {
+                    Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
+                    None => Vec::new(),
+                };
                 self.scatter(isa, finish, coats.lit(k));
                 if finish.shines() && !lamp.shadowless {
                     self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
+                }
+                if let Some(irid) = &finish.irid {
+                    self.iridesce(irid, &before, coats.bent(k), spots);
                 }
             }
             self.aim(isa, lamp, spots);
@@ -224,6 +233,25 @@ impl<'w> Lamps<'w> {
                 }
             },
         );
+    }
+
+    /// Multiplies what a layer added to the light by the interference of a thin film.
+    fn iridesce(&mut self, irid: &Irid, before: &[Rgb8], bent: Option<Bent<'_>>, spots: &[Spot]) {
+        let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
+        for (i, ((Falling { at, .. }, to), before)) in falling.iter().zip(places).zip(before).enumerate() {
+            let view = bent.map_or(&spots[i].view, |(views, _)| &views[i]);
+            let mut light = *to.light;
+            for lane in at.live.lanes() {
+                let way = at.cosine.0[lane].abs() + view.cosine.0[lane].abs();
+                let factor = |wavelength: f64| {
+                    let turns = irid.thickness * way / wavelength;
+                    1.0 + irid.amount * elementary::cos(TAU * turns)
+                };
+                let (old, new) = (before.lane(lane), light.lane(lane));
+                light.set_lane(lane, old + (new + old * -1.0) * irid.wavelength.map(factor));
+            }
+            *to.light = light;
+        }
     }
 
     /// Multiplies by the light's colour, and aims shadow rays at the light from the points that

@@ -5,7 +5,7 @@ use crate::lanes::Rgb8;
 use crate::power::Power;
 use crate::vector::{dot, reflect};
 use durer_math::{F8, M8, Vec3, elementary};
-use durer_scene::Rgb;
+use durer_scene::{Irid, Rgb};
 
 /// From this size on, Phong's highlight is cut off where its cosine is [`PHONG_END`] (a fact of the
 /// scene language).
@@ -29,6 +29,7 @@ pub(crate) struct Finish {
     pub(crate) crand: f64,
     pub(crate) mirror: Option<Box<Mirror>>,
     pub(crate) conserve_energy: bool,
+    pub(crate) irid: Option<Irid>,
     /// Whether the scene's lights have any effect.
     pub(crate) is_lit: bool,
 }
@@ -103,6 +104,7 @@ impl Finish {
                 })
             }),
             conserve_energy: f.conserve_energy,
+            irid: f.irid,
             is_lit: diffuse != 0.0 || diffuse_back != 0.0 || phong != 0.0 || specular != 0.0,
         }
     }

@@ -5,9 +5,11 @@ mod cells;
 mod checker;
 mod field;
 mod fields;
+mod grains;
 mod hexagon;
 mod lookup;
 mod normal;
+mod picture;
 mod place;
 mod square;
 mod triangular;
@@ -16,6 +18,7 @@ mod wave;
 
 pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
+pub(crate) use self::grains::{Grains, building_with};
 pub(crate) use self::place::Place;
 
 use durer_math::lanes::LANES;
@@ -27,6 +30,7 @@ use crate::material::Finish;
 use cells::{Cutter, Kinds};
 use lookup::Lookup;
 use normal::RenderNormal;
+use picture::Picture;
 
 /// The texture of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +57,7 @@ pub(crate) enum RenderPigment {
     Solid(Colour),
     Colours(Place, Box<Blend<Colour>>),
     Shades(Place, Box<Blend<RenderPigment>>),
+    Picture(Place, Picture),
 }
 
 /// Entries that a pattern selects or mixes by position.
@@ -61,6 +66,8 @@ pub(crate) enum Blend<T> {
     Cells(Cutter, Box<[T]>),
     Map(Lookup, Box<[(f64, T)]>),
     Mean(Box<[(f64, T)]>),
+    /// By the indices of a picture's pixels; after the last entry comes the first.
+    Picture(Picture, Box<[T]>),
 }
 
 /// The entries of a pattern at a point.
@@ -92,6 +99,9 @@ impl<T> Blend<T> {
                 let entries = entries.iter().map(|(weight, e)| Ok((weight / whole, entry(e)?)));
                 Self::Mean(entries.collect::<Result<_, AffineError>>()?)
             }
+            Pattern::Image { map, entries } => {
+                Self::Picture(Picture::new(map), entries.iter().map(entry).collect::<Result<_, _>>()?)
+            }
             // The warps are part of the place of what shows the pattern.
             Pattern::Warped { pattern, .. } => Self::new(pattern, entry)?,
         })
@@ -111,7 +121,7 @@ impl<T> Blend<T> {
     /// The entry with an index.
     pub(crate) fn entry(&self, i: usize) -> &T {
         match self {
-            Self::Cells(_, entries) => &entries[i],
+            Self::Cells(_, entries) | Self::Picture(_, entries) => &entries[i],
             Self::Map(_, entries) | Self::Mean(entries) => &entries[i].1,
         }
     }
@@ -119,7 +129,7 @@ impl<T> Blend<T> {
     /// The number of entries.
     pub(crate) fn len(&self) -> usize {
         match self {
-            Self::Cells(_, entries) => entries.len(),
+            Self::Cells(_, entries) | Self::Picture(_, entries) => entries.len(),
             Self::Map(_, entries) | Self::Mean(entries) => entries.len(),
         }
     }
@@ -132,6 +142,9 @@ impl<T> Blend<T> {
                 Some(Shown::One(cutter.kind(p).min(entries.len().checked_sub(1)?)))
             }
             Self::Mean(entries) => (!entries.is_empty()).then_some(Shown::Each),
+            Self::Picture(picture, entries) => {
+                (!entries.is_empty()).then(|| Shown::One(picture.index(p) % entries.len()))
+            }
             Self::Map(lookup, entries) => looked_up(entries, lookup.value(p)),
         }
     }
@@ -201,6 +214,10 @@ impl Blend<Colour> {
                     Kinds::Many(kinds) => Colour8::by_lane(live, |i| entry(usize::from(kinds[i]))),
                 }
             }
+            Self::Picture(picture, entries) => Colour8::by_lane(live, |i| {
+                let number = picture.index(p.to_vec().lane(i).to_point());
+                if entries.is_empty() { Colour::default() } else { entries[number % entries.len()] }
+            }),
             Self::Mean(entries) if entries.is_empty() => Colour8::splat(Colour::default()),
             Self::Mean(_) => Colour8::splat(self.mean(|colour| *colour)),
             Self::Map(lookup, entries) => {
@@ -253,6 +270,9 @@ impl RenderPigment {
                 Place::warped(&joined()?, pattern),
                 Box::new(Blend::new(pattern, |p| Self::new(p, &Affine::IDENTITY))?),
             ),
+            PigmentBody::Image(warps, map) => {
+                Self::Picture(Place::through(&joined()?, warps), Picture::new(map))
+            }
         })
     }
 
@@ -260,6 +280,7 @@ impl RenderPigment {
     pub(crate) fn at(&self, p: Point3) -> Colour {
         match self {
             Self::Solid(colour) => *colour,
+            Self::Picture(place, picture) => picture.colour(place.inside(p)),
             Self::Colours(place, blend) => match blend.at(place.inside(p)) {
                 Some(Shown::One(i)) => *blend.entry(i),
                 Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
@@ -306,6 +327,10 @@ impl RenderPigment {
             Self::Solid(colour) => Colour8::splat(*colour),
             Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), live),
             Self::Shades(place, blend) => blend.shades(place.inside_lanes(p), live),
+            Self::Picture(place, picture) => {
+                let p = place.inside_lanes(p).to_vec();
+                Colour8::by_lane(live, |i| picture.colour(p.lane(i).to_point()))
+            }
         }
     }
 }

@@ -5,18 +5,19 @@
 //! ```text
 //!   n - 2/15 a grad h      for a landscape with heights h and the factor a,
 //!   n + a v                for a vector v,
+//!   n - a (dx, dy, 0)      for the differences of a picture's values from pixel to pixel,
 //! ```
 //!
 //! and is then scaled to length 1. The gradient is estimated from the heights at the four corners of
 //! a regular tetrahedron around the point.
 
 use durer_math::{Affine, AffineError, F8, M8, Matrix3, Point3, Vec3};
-use durer_scene::{Height, Normal, NormalBody};
+use durer_scene::{Height, ImageValue, Normal, NormalBody};
 
 use super::field::Pusher;
 use super::lookup::Lookup;
 use super::place::Place;
-use super::{Blend, Shown};
+use super::{Blend, Picture, Shown};
 use crate::vector::unit;
 
 /// A [`Normal`] with its constants precomputed.
@@ -33,6 +34,7 @@ pub(crate) struct RenderNormal {
 enum Body {
     Height(Box<Landscape>),
     Push(Pusher, f64),
+    Picture(Picture, ImageValue, f64),
     Normals(Box<Blend<RenderNormal>>),
 }
 
@@ -79,6 +81,9 @@ impl RenderNormal {
             NormalBody::Push { warps, push, amount } => {
                 (Place::through(&local, warps), Body::Push(Pusher::new(push), *amount))
             }
+            NormalBody::Picture { warps, map, value, amount } => {
+                (Place::through(&local, warps), Body::Picture(Picture::new(map), *value, *amount))
+            }
             NormalBody::Normals(pattern) => {
                 let blend = Blend::new(pattern, |n| Self::new(n, &Affine::IDENTITY, &Affine::IDENTITY))?;
                 (Place::warped(&local, pattern), Body::Normals(Box::new(blend)))
@@ -109,6 +114,7 @@ impl RenderNormal {
         let moved = match &self.body {
             Body::Height(landscape) => own - landscape.gradient(p) * (DEPTH * landscape.amount),
             Body::Push(pusher, amount) => own + pusher.vector(p) * *amount,
+            Body::Picture(picture, value, amount) => own - picture.differences(p, *value) * *amount,
             Body::Normals(blend) => match blend.at(p) {
                 Some(Shown::One(i)) => blend.entry(i).at(p, own),
                 Some(Shown::Two(i, k)) => {

@@ -112,7 +112,7 @@ fn shift(block: [f64; 3], most: Vec3) -> Vec3 {
 }
 
 /// The point of the flat pattern that lies at `p`.
-fn unrolled(p: Point3, wrap: &Wrap) -> Point3 {
+pub(super) fn unrolled(p: Point3, wrap: &Wrap) -> Point3 {
     let Vec3 { x, y, z } = p.to_vec();
     let across = (x * x + z * z).sqrt();
     let turn = angle(x, z);

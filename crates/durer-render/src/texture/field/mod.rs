@@ -14,12 +14,13 @@ pub(super) use crackle::cell_number;
 pub(crate) use noise::Stir;
 pub(super) use push::Pusher;
 
-use super::RenderPigment;
+use super::cells::Cutter;
+use super::{Grains, Picture, RenderPigment};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
 use durer_scene::tape::Tape;
-use durer_scene::{Fractal, Grain, Ramp};
+use durer_scene::{Fractal, Grain, ImageValue, Ramp};
 use ripples::Centres;
 
 /// A [`Ramp`] with its constants precomputed.
@@ -37,7 +38,7 @@ pub(crate) enum Field {
     Wood(Option<Stir>),
     Spiral { arms: f64, double: bool, shift: f64 },
     Quilted(f64, f64),
-    Noise(Grain),
+    Noise(Grain, Grains),
     Agate(f64, Stir),
     Cells,
     Ripples(Box<Centres>),
@@ -45,6 +46,8 @@ pub(crate) enum Field {
     Fractal(Fractal),
     Formula(Box<Tape>),
     Pigment(Box<RenderPigment>),
+    Picture(Picture, ImageValue),
+    Kind(Cutter),
 }
 
 impl Field {
@@ -67,12 +70,14 @@ impl Field {
                 durer_scene::GrainKind::Agate(amount, turbulence) => {
                     Self::Agate(*amount, Stir::new(turbulence))
                 }
-                _ => Self::Noise(*grain),
+                _ => Self::Noise(*grain, Grains::current()),
             },
             Ramp::Cells => Self::Cells,
             Ramp::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
             Ramp::Crackle(crackle) => Self::Crackle(Points::new(crackle)),
             Ramp::Fractal(fractal) => Self::Fractal(*fractal),
+            Ramp::Image(map, value) => Self::Picture(Picture::new(map), *value),
+            Ramp::Kind(cells) => Self::Kind(Cutter::new(*cells)),
             Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
             Ramp::Pigment(pigment) => {
                 Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
@@ -102,6 +107,8 @@ impl Field {
             Self::Crackle(points) => points.value(p),
             Self::Fractal(set) => fractal::value(set, p),
             Self::Pigment(pigment) => pigment.at(p).rgb.luminance(),
+            Self::Picture(picture, value) => picture.value(p, *value),
+            Self::Kind(cutter) => cutter.kind(p) as f64,
             Self::Marble(None) => p.x,
             _ => {
                 let lanes = self.values(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::first(1));
@@ -124,7 +131,7 @@ impl Field {
 
     fn other_values(&self, p: Point3<F8>, live: M8) -> F8 {
         match self {
-            Self::Noise(grain) => noise::values(grain, p),
+            Self::Noise(grain, grains) => noise::values(grain, grains, p),
             Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
             Self::Marble(stir) => noise::marble(stir.as_ref(), p),
             Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),

@@ -16,29 +16,22 @@
 //! clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the turbulence. Functions
 //! of the scene language use the same formulas.
 
+use crate::texture::Grains;
 use crate::vector::floor;
 use core::f64::consts::TAU;
-use durer_math::{F8, M8, Point3, Vec3, elementary, noise};
+use durer_math::{F8, M8, Point3, Vec3, elementary};
 use durer_scene::{Grain, GrainKind, Turbulence};
 
-/// The shifts of the noise for the second and the third component of turbulence.
-pub(super) const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
-
-/// `n`.
-fn plain(p: Vec3<F8>) -> F8 {
-    noise::values([&p.x, &p.y, &p.z])
-}
-
 /// `N`.
-fn ranged(p: Vec3<F8>, old: bool) -> F8 {
-    let n = plain(p);
+fn ranged(grains: &Grains, p: Vec3<F8>, old: bool) -> F8 {
+    let n = grains.values(p);
     let n = if old { n + F8::splat(0.5) } else { (n + F8::splat(1.05242)) * 0.489_855_82 };
     n.max(F8::ZERO).min(F8::ONE)
 }
 
 /// `m`; without the clamp if `clamped` is false.
-fn grain(p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
-    let n = ranged(p, old);
+fn grain(grains: &Grains, p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
+    let n = ranged(grains, p, old);
     if old {
         return n;
     }
@@ -47,18 +40,18 @@ fn grain(p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
 }
 
 /// The values of a pattern at some points.
-pub(super) fn values(field: &Grain, p: Point3<F8>) -> F8 {
+pub(super) fn values(field: &Grain, grains: &Grains, p: Point3<F8>) -> F8 {
     let (p, old) = (p.to_vec(), field.old);
     match field.kind {
-        GrainKind::Bozo | GrainKind::Agate(..) => ranged(p, old),
+        GrainKind::Bozo | GrainKind::Agate(..) => ranged(grains, p, old),
         GrainKind::Dents => {
-            let n = ranged(p, old);
+            let n = ranged(grains, p, old);
             n * n * n
         }
         GrainKind::Wrinkles => {
             let (mut sum, mut weight, mut scale) = (F8::ZERO, 0.5, 1.0);
             for _ in 0..10 {
-                sum += grain(p * F8::splat(scale), old, true) * weight;
+                sum += grain(grains, p * F8::splat(scale), old, true) * weight;
                 (weight, scale) = (weight * 0.5, scale * 2.0);
             }
             sum
@@ -66,7 +59,7 @@ pub(super) fn values(field: &Grain, p: Point3<F8>) -> F8 {
         GrainKind::Granite => {
             let (mut sum, mut weight, mut scale) = (F8::ZERO, 1.0, 4.0);
             for _ in 0..6 {
-                sum += (F8::splat(0.5) - grain(p * F8::splat(scale), old, true)).abs() * weight;
+                sum += (F8::splat(0.5) - grain(grains, p * F8::splat(scale), old, true)).abs() * weight;
                 (weight, scale) = (weight * 0.5, scale * 2.0);
             }
             sum
@@ -81,6 +74,7 @@ pub(crate) struct Stir {
     /// The weight and the scale of each octave.
     octaves: Box<[(f64, f64)]>,
     old: bool,
+    grains: Grains,
 }
 
 impl Stir {
@@ -93,6 +87,7 @@ impl Stir {
             amount: turbulence.amount,
             octaves: (0..turbulence.octaves.count).map(octave).collect(),
             old: turbulence.old,
+            grains: Grains::current(),
         }
     }
 
@@ -100,7 +95,7 @@ impl Stir {
     pub(crate) fn scalar(&self, p: Point3<F8>) -> F8 {
         let mut sum = F8::ZERO;
         for (k, &(weight, scale)) in self.octaves.iter().enumerate() {
-            sum += grain(p.to_vec() * F8::splat(scale), self.old, k == 0) * weight;
+            sum += grain(&self.grains, p.to_vec() * F8::splat(scale), self.old, k == 0) * weight;
         }
         sum
     }
@@ -109,12 +104,7 @@ impl Stir {
     fn component(&self, p: Point3<F8>, axis: usize) -> F8 {
         let mut sum = F8::ZERO;
         for &(weight, scale) in &self.octaves {
-            let mut p = p.to_vec() * F8::splat(scale);
-            if let Some(i) = axis.checked_sub(1) {
-                let [x, y, z] = ELSEWHERE[i];
-                p += Vec3::<F8>::splat(Vec3::new(x, y, z));
-            }
-            sum += plain(p) * weight;
+            sum += self.grains.component(p.to_vec() * F8::splat(scale), axis) * weight;
         }
         sum
     }

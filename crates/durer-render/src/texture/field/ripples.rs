@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 use durer_math::{Point3, Vec3, elementary};
 use durer_scene::Ripples;
 
+use crate::texture::Grains;
 use crate::vector::{floor, length, unit};
 
 /// The number of centres.
@@ -29,6 +30,12 @@ const HEIGHT: f64 = 0.017_94;
 /// The same for slopes.
 const SLOPE: f64 = 0.084_6;
 
+/// The heights and slopes of POV-Ray's waves, times the frequency, and the state of the linear
+/// congruential generator of their frequencies: found from values of the pattern in POV-Ray 3.7.
+const LEARNED_HEIGHT: f64 = 0.02;
+const LEARNED_SLOPE: f64 = 0.1;
+const LEARNED_STATE: u32 = 0x745d_9d9e;
+
 impl Centres {
     pub(super) fn new(ripples: &Ripples) -> Self {
         let mut state = 0x9e37_79b9_u32;
@@ -36,11 +43,22 @@ impl Centres {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(state >> 8) / f64::from(1_u32 << 24)
         };
+        let grains = Grains::current();
+        let is_learned = grains != Grains::Own;
+        let (height, slope) = if is_learned { (LEARNED_HEIGHT, LEARNED_SLOPE) } else { (HEIGHT, SLOPE) };
+        let mut learned_state = LEARNED_STATE;
         let centre = |i: usize| {
-            let at = Point3::new(random(), random(), random());
-            let own = if ripples.waves { 0.15 + 0.09 * i as f64 } else { 1.0 };
-            let height = if ripples.waves { HEIGHT / own } else { 0.5 / COUNT as f64 };
-            let slope = if ripples.waves { SLOPE / own } else { 1.0 / COUNT as f64 };
+            let mut at = Point3::new(random(), random(), random());
+            let mut own = if ripples.waves { 0.15 + 0.09 * i as f64 } else { 1.0 };
+            if is_learned {
+                at = unit(grains.vector(Point3::new(i as f64, 0.0, 0.0))).to_point();
+                if ripples.waves {
+                    own = f64::from(learned_state >> 16 & 0x7fff) / 32767.0 + 0.01;
+                    learned_state = learned_state.wrapping_mul(1_812_433_253).wrapping_add(12_345);
+                }
+            }
+            let height = if ripples.waves { height / own } else { 0.5 / COUNT as f64 };
+            let slope = if ripples.waves { slope / own } else { 1.0 / COUNT as f64 };
             Centre { at, frequency: own * ripples.frequency, height, slope }
         };
         Self { centres: core::array::from_fn(centre), phase: ripples.phase }

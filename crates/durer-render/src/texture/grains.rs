@@ -1,0 +1,72 @@
+//! The noise of textures: durer's own, or one that was learned from POV-Ray.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use durer_math::{F8, Point3, Vec3, noise};
+use durer_scene::LearnedNoise;
+
+/// The shifts of durer's own noise for the second and the third component of vectors.
+const ELSEWHERE: [[f64; 3]; 3] = [[0.0; 3], [157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
+
+/// A source of noise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Grains {
+    #[default]
+    Own,
+    Learned(Arc<LearnedNoise>),
+}
+
+thread_local! {
+    /// The noise of the world that this thread is building.
+    static CURRENT: RefCell<Grains> = const { RefCell::new(Grains::Own) };
+}
+
+/// Runs `build`, in which [`Grains::current`] is `grains`.
+pub(crate) fn building_with<T>(grains: Grains, build: impl FnOnce() -> T) -> T {
+    let before = CURRENT.with(|current| current.replace(grains));
+    let built = build();
+    CURRENT.with(|current| current.replace(before));
+    built
+}
+
+impl Grains {
+    /// The noise of the world that this thread is building.
+    pub(crate) fn current() -> Self {
+        CURRENT.with(|current| current.borrow().clone())
+    }
+
+    /// The noise at some points, about zero.
+    pub(crate) fn values(&self, p: Vec3<F8>) -> F8 {
+        match self {
+            Self::Own => noise::values([&p.x, &p.y, &p.z]),
+            Self::Learned(learned) => learned.values([&p.x, &p.y, &p.z]),
+        }
+    }
+
+    /// A component of the vector noise at some points.
+    pub(crate) fn component(&self, p: Vec3<F8>, axis: usize) -> F8 {
+        match self {
+            Self::Own => {
+                let [x, y, z] = ELSEWHERE[axis];
+                self.values(if axis == 0 { p } else { p + Vec3::<F8>::splat(Vec3::new(x, y, z)) })
+            }
+            Self::Learned(learned) => learned.components([&p.x, &p.y, &p.z], axis),
+        }
+    }
+
+    /// The vector noise at a point.
+    pub(crate) fn vector(&self, p: Point3) -> Vec3 {
+        match self {
+            Self::Own => {
+                let mut at = Vec3::<F8>::splat(p.to_vec());
+                for (i, [x, y, z]) in ELSEWHERE.into_iter().enumerate() {
+                    at.set_lane(i, p.to_vec() + Vec3::new(x, y, z));
+                }
+                let n = noise::values([&at.x, &at.y, &at.z]).0;
+                Vec3::new(n[0], n[1], n[2])
+            }
+            Self::Learned(learned) => learned.vector(p),
+        }
+    }
+}
