@@ -503,7 +503,7 @@ fn polygons_are_read_as_a_control_mesh() {
     // Texture coordinates are kept if all corners have some.
     let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3\n";
     assert!(durer_mesh::control_mesh(text).unwrap().0.uv_faces.is_empty());
-    assert_eq!(durer_mesh::control_mesh(b"v 0 0 0\n"), Err(durer_mesh::ErrorKind::Empty));
+    assert_eq!(durer_mesh::control_mesh(b"v 0 0 0\n"), Err(ErrorKind::Empty));
     let other = durer_mesh::read_control_mesh(std::path::Path::new("a.ply")).unwrap_err();
-    assert_eq!(other.kind, durer_mesh::ErrorKind::Polygons);
+    assert_eq!(other.kind, ErrorKind::Polygons);
 }

@@ -188,7 +188,8 @@ impl Convex {
 
     fn common(&self, o: [i64; 3], d: [i64; 3]) -> Common {
         let dot = |a: [i64; 3], b: [i64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<i64>();
-        let (mut first, mut last): (Option<(i64, i64)>, Option<(i64, i64)>) = (None, None);
+        let mut first: Option<(i64, i64)> = None;
+        let mut last: Option<(i64, i64)> = None;
         let mut is_inside = true;
         for &(n, level) in &self.planes {
             let (slope, room) = (dot(n, d), level - dot(n, o));

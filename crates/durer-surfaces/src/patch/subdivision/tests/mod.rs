@@ -4,7 +4,7 @@ mod meshes;
 mod naive;
 
 use super::*;
-use crate::laws::{TestRng, all_roots, drawn, report};
+use crate::laws::{all_roots, drawn, report};
 use crate::{All, Nurbs, NurbsData, RootKind};
 use durer_math::{Ray, U, Vec3};
 use meshes::*;
@@ -28,7 +28,7 @@ fn limits(data: &SubdivisionData) -> Vec<Option<(Vec3, Vec3)>> {
 /// Whether crossings of a line with a closed body enter and leave it in turn.
 fn alternate(roots: &[Root]) -> bool {
     let signs: Vec<i8> = roots.iter().map(|r| r.sign).filter(|s| *s != 0).collect();
-    signs.first() == Some(&-1) && signs.len() % 2 == 0 && signs.windows(2).all(|w| w[0] != w[1])
+    signs.first() == Some(&-1) && signs.len().is_multiple_of(2) && signs.windows(2).all(|w| w[0] != w[1])
 }
 
 #[test]
