@@ -4,7 +4,7 @@ mod meshes;
 mod naive;
 
 use super::*;
-use crate::laws::{TestRng, all_roots, drawn, report};
+use crate::laws::{all_roots, drawn, report};
 use crate::{All, Nurbs, NurbsData, RootKind};
 use durer_math::{Ray, U, Vec3};
 use meshes::*;
