@@ -153,7 +153,7 @@ impl Line {
         let (speed, speed_err) = sum(dot(&[self.slope[0], self.slope[1], 1.0]));
         let speed_err = speed_err + n[0].abs() * self.slope_err[0] + n[1].abs() * self.slope_err[1];
         let known = speed.abs() - speed_err;
-        if !(known > 1.0 / 1024.0) {
+        if known.is_nan() || known <= 1.0 / 1024.0 {
             return None;
         }
         let z = h.map(|h| (h - start) / speed);

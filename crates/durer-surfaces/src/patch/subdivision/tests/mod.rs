@@ -28,7 +28,7 @@ fn limits(data: &SubdivisionData) -> Vec<Option<(Vec3, Vec3)>> {
 /// Whether crossings of a line with a closed body enter and leave it in turn.
 fn alternate(roots: &[Root]) -> bool {
     let signs: Vec<i8> = roots.iter().map(|r| r.sign).filter(|s| *s != 0).collect();
-    signs.first() == Some(&-1) && signs.len() % 2 == 0 && signs.windows(2).all(|w| w[0] != w[1])
+    signs.first() == Some(&-1) && signs.len().is_multiple_of(2) && signs.windows(2).all(|w| w[0] != w[1])
 }
 
 #[test]
@@ -146,8 +146,13 @@ fn tessellations_come_nearer_by_four() {
             naive = naive.refined();
             let far = naive.distance(&it) / size;
             println!("{name} {level}: {far:.3e}");
-            // Next to vertices of many edges faces shrink by less than a half.
-            let most = if name.starts_with("pyramid") || name.starts_with("prism") { 0.8 } else { 0.3 };
+            // Next to vertices of many edges faces shrink by less than a half, and where an edge is sharp
+            // for some steps it becomes round only after them.
+            let most = if name.starts_with("pyramid") || name.starts_with("prism") || name.contains(',') {
+                0.8
+            } else {
+                0.3
+            };
             if level > 3 {
                 assert!(far < before * most, "{name} {level}: {far} after {before}");
             }
