@@ -2,8 +2,8 @@
 //
 // Each step: a point for every face, edge and vertex of a mesh; the surface is what the mesh comes to
 //
-// Four control meshes under Catmull and Clark's rules (`subdivision`), met at their limit and not at any step on the way. The edges of the dice are sharp
-// for ever, for two and a half steps, and not at all; the star has vertices of ten edges, and the ring a crease all along its outer rim.
+// Control meshes under Catmull and Clark's rules (`subdivision`), met at their limit and not at any step on the way. Three cubes: their upper and lower
+// edges are sharp for ever, for two and a half steps, and not at all. The star has two vertices of ten edges, and the ring is creased along its outer rim.
 
 #include "stage.inc"
 #macro Die(S)

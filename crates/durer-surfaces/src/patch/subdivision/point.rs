@@ -13,7 +13,7 @@ use super::limit::Leaf;
 const POINT: f64 = durer_math::scale::pow2(-50);
 /// Directions in which it is counted how often a point is enclosed.
 const DIRECTIONS: [[f64; 3]; 5] = [
-    [0.5773, 0.7079, 0.4082],
+    [0.5773, 0.7013, 0.4183],
     [-0.2113, 0.9113, 0.3533],
     [0.8819, -0.3119, 0.3535],
     [0.1931, 0.3717, -0.9081],

@@ -146,8 +146,13 @@ fn tessellations_come_nearer_by_four() {
             naive = naive.refined();
             let far = naive.distance(&it) / size;
             println!("{name} {level}: {far:.3e}");
-            // Next to vertices of many edges faces shrink by less than a half.
-            let most = if name.starts_with("pyramid") || name.starts_with("prism") { 0.8 } else { 0.3 };
+            // Next to vertices of many edges faces shrink by less than a half, and where an edge is sharp
+            // for some steps it becomes round only after them.
+            let most = if name.starts_with("pyramid") || name.starts_with("prism") || name.contains(',') {
+                0.8
+            } else {
+                0.3
+            };
             if level > 3 {
                 assert!(far < before * most, "{name} {level}: {far} after {before}");
             }
