@@ -61,7 +61,7 @@ fn circle(x: f64, y: f64, r: f64) -> TrimLoop {
     ];
     let at = |k: usize| {
         let (a, b) = ring[k % 8];
-        [x + r * a, y + r * b, if k % 2 == 0 { 1.0 } else { h }]
+        [x + r * a, y + r * b, if k.is_multiple_of(2) { 1.0 } else { h }]
     };
     let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
     TrimLoop::Nurbs { degree: 2, points: (0..9).map(at).collect(), knots }
@@ -186,7 +186,7 @@ fn cubic_loops_keep_what_is_left_of_them() {
         let edge = [point(s, [0.5, 0.75, 0.875, 0.5]), point(s, [0.125, 0.25, 0.875, 0.875])];
         let off = dice.scale(-16, -3) * dice.pick(&[-1.0, 1.0]);
         let (u, v) = (edge[0] + off, edge[1]);
-        if u < 0.5 || u > 1.0 {
+        if !(0.5..=1.0).contains(&u) {
             continue;
         }
         // The right half is one function of v. What is nearer than the rounding may be uncertain.
