@@ -80,7 +80,8 @@ fn every_query_follows_the_rule_in_every_direction() {
                 continue;
             }
             // Through corners, edges, middles of edges and faces, and beside.
-            let at = whole(&mut dice, if dice.below(4) == 0 { 2 } else { 1 });
+            let reach = if dice.below(4) == 0 { 2 } else { 1 };
+            let at = whole(&mut dice, reach);
             let o = [0, 1, 2].map(|i| at[i] - 8 * d[i]);
             let expected = common_with_cube(o, d);
             let float = |v: [i64; 3]| v.map(|x| x as f64);
