@@ -346,7 +346,7 @@ mod tests {
                 let line = ExactLine::new(&ray);
                 let n = (b - a).cross(d - a);
                 let plane = half(n, a).along(&line);
-                let root = Surd::ratio(-plane.c.clone(), plane.b.shifted(1));
+                let root = Surd::ratio(-plane.c.clone(), plane.b.clone().shifted(1));
                 let whole = [0, 1].map(|i| all_roots(&triangles[i], &ray));
                 let inside = || cuts.iter().all(|f| root.sign_of(&f.along(&line)).is_le());
                 for (i, roots) in whole.iter().enumerate() {
