@@ -188,8 +188,7 @@ impl Convex {
 
     fn common(&self, o: [i64; 3], d: [i64; 3]) -> Common {
         let dot = |a: [i64; 3], b: [i64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<i64>();
-        let mut first: Option<(i64, i64)> = None;
-        let mut last: Option<(i64, i64)> = None;
+        let (mut first, mut last) = (None, None);
         let mut is_inside = true;
         for &(n, level) in &self.planes {
             let (slope, room) = (dot(n, d), level - dot(n, o));
@@ -198,11 +197,11 @@ impl Convex {
                 Ordering::Equal => is_inside &= room > 0,
                 Ordering::Greater => {
                     let t = (room, slope);
-                    last = Some(last.filter(|&l| compare(l, t).is_le()).unwrap_or(t));
+                    last = Some(last.filter(|&l: &(i64, i64)| compare(l, t).is_le()).unwrap_or(t));
                 }
                 Ordering::Less => {
                     let t = (-room, -slope);
-                    first = Some(first.filter(|&f| compare(f, t).is_ge()).unwrap_or(t));
+                    first = Some(first.filter(|&f: &(i64, i64)| compare(f, t).is_ge()).unwrap_or(t));
                 }
             }
         }
