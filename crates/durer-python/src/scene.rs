@@ -107,7 +107,7 @@ fn load(
         image_width: width,
         image_height: height,
         limits: known,
-        strict: false,
+        ..ReadOptions::default()
     };
     let read = py.detach(|| durer::pov::read(&path, &options)).map_err(value_error)?;
     let warnings = read.messages.iter().map(|m| m.to_string().trim_end().to_owned()).collect();
