@@ -148,7 +148,7 @@ impl Parser<'_> {
     /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`, or
     /// `triangular N, points`.
     pub(super) fn spline_patch(&mut self, place: Place) -> Result<Shape> {
-        if self.small_word("triangular")? {
+        if self.take_word(Keyword::Triangular)? {
             return self.triangular_patch(place);
         }
         let (basis, name, least) = if self.take_word(Keyword::LinearSpline)? {

@@ -312,7 +312,7 @@ fn bodies_that_touch_fuse() {
         let (fused_scene, whole_scene) = (lowered(&fused), lowered(&whole));
         let mut dice = Dice(11);
         let mut met = 0;
-        for ray in rays(&mut dice, [&whole_scene, &whole_scene], 400) {
+        for ray in rays(&mut dice, [&whole_scene, &whole_scene], 600) {
             let signs = |scene: &Lowered| {
                 let mut all: Vec<_> =
                     scene.geometry.all(&ray).iter().map(|h| (h.sign, h.t_lo, h.t_hi)).collect();

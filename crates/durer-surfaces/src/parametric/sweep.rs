@@ -76,6 +76,12 @@ pub enum SweepError {
     /// The vector that shows upward is along the path.
     #[error("sweep: `up` is parallel to the path at knot {0}")]
     Up(usize),
+    /// The path is curved.
+    #[error("not supported yet: sweeps along a {0}")]
+    Curved(&'static str),
+    /// The profile turns about the path.
+    #[error("not supported yet: twist")]
+    Twist,
     /// The formulas are too long.
     #[error("sweep: {0}")]
     Formula(#[from] FormulaError),
@@ -123,8 +129,19 @@ pub struct PathSweep {
 const OVERLAP: f64 = durer_math::scale::pow2(-44);
 
 impl PathSweep {
-    /// The solid with flat caps.
+    /// The solid with flat caps, along straight lines with mitred corners.
     pub fn new(data: SweepData) -> Result<Self, SweepError> {
+        if data.spline != PathSpline::Linear {
+            return Err(SweepError::Curved(data.spline.name()));
+        }
+        if data.twist != 0.0 {
+            return Err(SweepError::Twist);
+        }
+        Self::along(data)
+    }
+
+    /// The solid along any path.
+    pub(super) fn along(data: SweepData) -> Result<Self, SweepError> {
         let (least, len) = (data.spline.least(), data.path.len());
         if len < least || data.spline == PathSpline::Bezier && len % 4 != 0 {
             return Err(SweepError::Points { what: data.spline.name(), least, len });

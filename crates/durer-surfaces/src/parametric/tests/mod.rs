@@ -302,7 +302,7 @@ fn rays_through_the_seam_of_a_moebius_strip_meet_it_once() {
 #[test]
 fn rays_from_inside_never_escape_through_seams_and_poles() {
     let (ball, ring) = (sphere(), torus(1.0, 0.25));
-    for case in drawn(1500) {
+    for case in drawn(300) {
         let mut dice = dice(6, case);
         let ((sa, ca), (sb, cb)) = (angle(&mut dice), angle(&mut dice));
         let origin = if dice.once_in(2) { Vec3::ZERO } else { dice.vector() * 0.3 };

@@ -187,7 +187,7 @@ fn points_are_within_their_bounds_and_rays_leave_them() {
     for (name, data) in all_meshes() {
         let it = surface(&data);
         let limits = limits(&data);
-        for case in drawn(200) {
+        for case in drawn(40) {
             let mut dice = crate::laws::dice(7, case);
             let k = dice.below(limits.len() as u64) as usize;
             let target = match limits[k] {
