@@ -21,7 +21,7 @@ nurbs {
   trim {
     linear_spline 10
     #for (K, 0, 9)
-      #local R = mod(K, 2) = 0 ? 0.22 : 0.09;
+      #local R = (mod(K, 2) = 0 ? 0.22 : 0.09);
       <0.5 + R*cos(K*pi/5), 0.5 + R*sin(K*pi/5)>
     #end
   }
