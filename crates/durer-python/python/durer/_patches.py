@@ -38,7 +38,8 @@ _Trim = tuple[str, tuple[tuple[float, ...], ...], int, tuple[float, ...]]
 
 def _trim(trim: Any) -> _Trim:
     """A closed curve in the parameters: its kind, points with weights, degree and knots."""
-    kind, points, degree, knots = "polygon", trim, 0, ()
+    kind, points, degree = "polygon", trim, 0
+    knots: tuple[float, ...] = ()
     if len(trim) > 0 and isinstance(trim[0], str):
         kind, points = trim[0], trim[1]
         degree = int(trim[2]) if len(trim) > 2 else 0
