@@ -423,6 +423,13 @@ class Parametric(Object):
     """The surface of three functions of u and v over a rectangle of parameters; an open surface.
 
     Made by :func:`durer.parametric`.
+
+    Examples
+    --------
+    >>> import durer
+    >>> sheet = durer.parametric("u", "v", "u*v", u=(0, 1), v=(0, 1))
+    >>> isinstance(sheet, durer.Parametric)
+    True
     """
 
     __slots__ = ()
