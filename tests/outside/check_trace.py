@@ -455,7 +455,8 @@ def check_ray(report, scene, ray, hits, on_the_line, widths):
                 report.counted[f"ties of placed outlines taken otherwise: {way}"] += 1
                 expected, pairs = other, others
                 break
-    at_end = lambda: any(e.t.cmp(end) == 0 for events in expected.events.values() for e, _ in events for end in ray[6:] if abs(end) < INF)
+    everywhere = lambda: Expected(scene, (*ray[:6], -INF, INF)).events.values()
+    at_end = lambda: any(e.t.cmp(end) == 0 for events in everywhere() for e, _ in events for end in (0.0, *ray[6:]) if abs(end) < INF)
     if pairs is None and scene.kind in ("mesh", "union") and at_end():
         report.counted["a ray that begins or ends on a mesh, perhaps along a face: not examined"] += 1
         return expected, None
