@@ -167,7 +167,11 @@ fn tessellations_come_nearer_by_four() {
             let is_coarse = name.starts_with("pyramid") || name.starts_with("prism");
             let most = if is_coarse || name.contains(',') { 0.8 } else { 1.2 * slowest(&data) };
             if level > 3 {
-                assert!(far <= before * most, "{name} {level}: {far} after {before}");
+                // A flat mesh is its own limit, up to the rounding of the points compared.
+                assert!(
+                    far <= (before * most).max(8.0 * f64::EPSILON),
+                    "{name} {level}: {far} after {before}"
+                );
             }
             before = far;
         }
