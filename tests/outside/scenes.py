@@ -291,7 +291,7 @@ def mesh(rng):
     edges = [(corners[f[i]], corners[f[i - 1]]) for f in faces for i in range(3)]
     outlines = [[[corners[i] for i in f]] for f in faces]
     ways = [sub(q, p) for p, q in edges[:8]]
-    return Loops(body, outlines, corner_points(rng, corners, edges), ways, spread(corners))
+    return Loops(body, outlines, corner_points(rng, corners, edges), ways, spread(corners), touches=True)
 
 
 QUADRICS = {

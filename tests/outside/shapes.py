@@ -10,7 +10,7 @@ first on which |direction| is largest.
 """
 
 from fractions import Fraction as F
-from functools import reduce
+from functools import cmp_to_key, reduce
 from itertools import permutations, product
 from math import gcd, lcm
 
@@ -150,10 +150,12 @@ IDENTITY = Map(words="")
 class Event:
     """One crossing: where, -1 entering / +1 leaving / 0 touching, and the normals it may have (functions of the point, outward). An optional one may be told or not."""
 
-    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face", "optional")
+    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face", "optional", "faces")
 
     def __init__(self, t, sgn, normals, leaf, face=0, any_sign=False, optional=False):
         self.t, self.sign, self.normals, self.leaf, self.face, self.any_sign, self.optional = t, sgn, normals, leaf, face, any_sign, optional
+        # The faces of which any may report it, if there are several.
+        self.faces = None
 
     def __repr__(self):
         return f"(t={float(self.t)!r} sign={self.sign})"
@@ -260,8 +262,9 @@ class Sheet(Leaf):
 class Loops(Leaf):
     """Flat outlines by the even-odd rule; a mesh is one leaf with many faces of one loop each."""
 
-    def __init__(self, body, faces, points, directions=(), size=1, oriented=True):
+    def __init__(self, body, faces, points, directions=(), size=1, oriented=True, touches=False):
         super().__init__(body, points, directions, size)
+        self.touches = touches
         # Each face: (plane normal, list of loops of whole-number vertices over 2^bits).
         vertices = [x for loops in faces for loop in loops for v in loop for x in v]
         self.bits = max(F(x).denominator for x in vertices).bit_length() - 1
@@ -272,7 +275,7 @@ class Loops(Leaf):
         self.oriented = oriented
 
     def with_faces(self, faces):
-        return Loops(self.body, faces, self.points, size=self.size, oriented=self.oriented)
+        return Loops(self.body, faces, self.points, size=self.size, oriented=self.oriented, touches=self.touches)
 
     def axes(self, o, d, m):
         """The axes that a rounded direction in the leaf's frame may have as its largest."""
@@ -305,9 +308,97 @@ class Loops(Leaf):
                 p = sub(times(w, loops[0][0]), shift)
                 t = Number(dot(n, p), 0, 0, slope << self.bits)
                 events.append(Event(t, sign(slope), [(n, 1)], self, face=number))
+        if self.touches:
+            events = self.with_touches(events, ray)
         events = self.clipped(events, ray)
         events.sort(key=lambda e: (e.t.rational(), e.face))
         return Answer(events)
+
+    def with_touches(self, events, ray):
+        """The crossings of a mesh, where one touch stands for what a line has in common with it but parallel lines as near as one likes have not."""
+        x, v, w = ray
+        k = max(range(3), key=lambda i: (abs(v[i]), -i))
+        a, b = [i for i in range(3) if i != k]
+        square = dot(v, v) << self.bits
+        met = []
+        for number, ((loop,), n) in enumerate(zip(self.outlines, self.planes)):
+            seen = [sub(times(w, p), times(1 << self.bits, x)) for p in loop]
+            flat = [(q[a] * v[k] - q[k] * v[a], q[b] * v[k] - q[k] * v[b]) for q in seen]
+            t = common_places(flat, [F(dot(q, v), square) for q in seen])
+            if t:
+                met.append((*t, number, flat))
+        met.sort()
+        pieces = []
+        for first, last, number, flat in met:
+            if pieces and first <= pieces[-1][1]:
+                pieces[-1][1] = max(last, pieces[-1][1])
+            else:
+                pieces.append([first, last, []])
+            pieces[-1][2].append((number, flat))
+        for first, last, faces in pieces:
+            if covers_all_around([flat for _, flat in faces]):
+                continue
+            events = [e for e in events if not first <= e.t.rational() <= last]
+            touch = Event(Number(first.numerator, 0, 0, first.denominator), 0, [(self.planes[number], 1) for number, _ in faces], self, face=faces[0][0])
+            touch.faces = {number for number, _ in faces}
+            events.append(touch)
+        return events
+
+
+def turn(p, q):
+    return p[0] * q[1] - p[1] * q[0]
+
+
+def common_places(flat, depths):
+    """Where the line through the origin along which a triangle was projected has points in common with it: the first and the last depth, or None."""
+    area = turn(sub2(flat[1], flat[0]), sub2(flat[2], flat[0]))
+    sides = [turn(flat[i - 1], flat[i]) for i in range(3)]
+    if area:
+        if any(side * area < 0 for side in sides):
+            return None
+        # Each corner counts by the area beyond the opposite edge.
+        at = sum(F(sides[(i + 2) % 3], area) * depths[i] for i in range(3))
+        return at, at
+    if any(sides):
+        return None
+    along = max(flat, key=lambda p: abs(p[0]) + abs(p[1]))
+    c = [p[0] * along[0] + p[1] * along[1] for p in flat]
+    places = [depth for depth, at in zip(depths, c) if at == 0]
+    for i in range(3):
+        p, q = c[i - 1], c[i]
+        if p * q < 0:
+            places.append((depths[i - 1] * q - depths[i] * p) / (q - p))
+    return (min(places), max(places)) if places else None
+
+
+def sub2(p, q):
+    return p[0] - q[0], p[1] - q[1]
+
+
+def covers_all_around(triangles):
+    """Whether plane triangles that hold the origin cover all points near it."""
+    def positive(flat):
+        area = turn(sub2(flat[1], flat[0]), sub2(flat[2], flat[0]))
+        return flat if area > 0 else flat[::-1] if area < 0 else None
+
+    faces = [flat for flat in map(positive, triangles) if flat]
+    if not faces:
+        return False
+    ways = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+    for flat in faces:
+        for i in range(3):
+            x, y = sub2(flat[i], flat[i - 1])
+            ways += [(x, y), (-x, -y)]
+    half = lambda p: p[1] < 0 or p[1] == 0 and p[0] < 0
+    ways.sort(key=cmp_to_key(lambda p, q: half(p) - half(q) or -sign(turn(p, q))))
+    # Directions in between: no edge lies along one.
+    between = [(p[0] + q[0], p[1] + q[1]) for p, q in zip(ways, ways[1:] + ways[:1]) if turn(p, q)]
+
+    def holds(flat, way):
+        sides = ((turn(flat[i - 1], flat[i]), sub2(flat[i], flat[i - 1])) for i in range(3))
+        return all(side > 0 or side == 0 and turn(edge, way) > 0 for side, edge in sides)
+
+    return all(any(holds(flat, way) for flat in faces) for way in between)
 
 
 def face_normal(loop):
