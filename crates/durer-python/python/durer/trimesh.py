@@ -20,6 +20,19 @@ __all__ = ["RayMeshIntersector", "install"]
 _PROBES = ((0.4395064455, 0.617598629942, 0.652231566745), (0.83, -0.27, 0.49), (-0.31, 0.52, 0.79))
 
 
+#: A dot product with a unit normal whose components are rounded is off by less than this part of the other vector.
+_ROUNDING = 16 * 2.0**-53
+
+
+def _runs_along(kind: npt.NDArray[Any], normal: Floats, directions: Floats) -> Bools:
+    """Which hits are touches of rays that run along a face: by trimesh's convention these miss."""
+    along: Bools = kind == 1
+    if along.any():
+        slope = np.abs(np.einsum("ij,ij->i", normal[along], directions[along]))
+        along[along] = slope <= _ROUNDING * np.abs(directions[along]).max(axis=1)
+    return along
+
+
 class RayMeshIntersector:
     """Trimesh's interface over durer: float64 throughout, all hits in one pass, no limit on their number.
 
@@ -34,7 +47,7 @@ class RayMeshIntersector:
 
     Rays are arrays or lists (n, 3) of origins and of directions of any length; only hits with t >= 0 count, and rays
     that are not finite miss. Rows of answers are in the order of the rays and, for each ray, of its hits along it. A ray
-    through a shared edge or vertex has one hit there, also if it only touches the mesh.
+    through a shared edge or vertex has one hit there, also if it only touches the mesh; a ray along a face has none.
 
     Examples
     --------
@@ -123,22 +136,23 @@ class RayMeshIntersector:
         locations : float64 (h, 3), if `return_locations`
         """
         scene = self._scene()
-        if multiple_hits:
-            hits = scene.all(ray_origins, ray_directions, threads=self.threads or None)
-            keep: Any = slice(None)
-            if max_hits is not None:
-                place = np.arange(len(hits)) - np.repeat(hits.offsets[:-1], hits.counts)
-                keep = place < max_hits
-            index_tri, index_ray = hits.primitive[keep], hits.ray[keep]
-            if not return_locations:
-                return index_tri, index_ray
-            return index_tri, index_ray, hits.position[keep]
-        first = scene.closest(ray_origins, ray_directions, threads=self.threads or None)
-        index_ray = np.nonzero(first.hit)[0]
-        index_tri = first.primitive[index_ray]
-        if not return_locations:
-            return index_tri, index_ray
-        return index_tri, index_ray, first.position[index_ray]
+        origins, directions = table(ray_origins, 3, "ray_origins"), table(ray_directions, 3, "ray_directions")
+        threads = self.threads or None
+        if not multiple_hits:
+            first = scene.closest(origins, directions, threads=threads)
+            if not _runs_along(first.kind, first.normal, directions).any():
+                index_ray = np.nonzero(first.hit)[0]
+                index_tri = first.primitive[index_ray]
+                return (index_tri, index_ray, first.position[index_ray]) if return_locations else (index_tri, index_ray)
+            max_hits = 1
+        hits = scene.all(origins, directions, threads=threads)
+        keep = ~_runs_along(hits.kind, hits.normal, directions[hits.ray])
+        if max_hits is not None:
+            # The number of each hit among those of its ray that are kept.
+            before = np.concatenate([[0], np.cumsum(keep)])
+            keep &= before[:-1] - before[hits.offsets[:-1]][hits.ray] < max_hits
+        index_tri, index_ray = hits.primitive[keep], hits.ray[keep]
+        return (index_tri, index_ray, hits.position[keep]) if return_locations else (index_tri, index_ray)
 
     def intersects_first(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **kwargs: Any

@@ -71,7 +71,14 @@ pub(super) fn pieces(face: &Face, number: u32, bounds: &Bounds, out: &mut Vec<Pi
         let along = |k: usize| kids.iter().filter(move |kid| kid.width[k] < piece.width[k]);
         let costs: [f64; 2] = [0, 1].map(|k| along(k).map(|kid| cost(kid, bounds)).sum());
         let change = piece.change();
-        let second = if costs[0] == costs[1] { change[1] > change[0] } else { costs[1] < costs[0] };
+        let second = if costs[0] != costs[1] {
+            costs[1] < costs[0]
+        } else if piece.is_bounded() {
+            change[1] > change[0]
+        } else {
+            // One halving may not be enough for bounds: both parameters have their turn.
+            halved[1] < halved[0]
+        };
         let k = if may == [true; 2] { usize::from(second) } else { usize::from(may[1]) };
         let mut halved = halved;
         halved[k] += 1;

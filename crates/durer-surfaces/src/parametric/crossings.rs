@@ -2,7 +2,8 @@
 
 use super::line::Found;
 use super::piece::Face;
-use crate::{CentredRay, Root, RootKind};
+use crate::patch::shell::root_at;
+use crate::{CentredRay, Root};
 use durer_math::U;
 
 /// Whether the box of `a` lies where `b` is the only crossing.
@@ -117,27 +118,5 @@ fn joined(a: &Found, b: &Found) -> Found {
 
 /// A crossing in the caller's parameter; `None` if it is not in the ray's range.
 pub(super) fn root(at: &CentredRay<'_>, found: &Found) -> Option<Root> {
-    let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
-    match at.admits(lo, hi) {
-        Some(false) => return None,
-        // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
-        // start is the start.
-        None if lo <= 0.0 && at.spawned().is_some_and(|(_, face, _)| face == found.face) => return None,
-        _ => {}
-    }
-    let (kind, sign) = match (found.sign, found.turn) {
-        (0, 0) => (RootKind::Grazing, 0),
-        (0, turn) => (RootKind::Cluster, turn),
-        (sign, _) => (RootKind::Simple, sign),
-    };
-    Some(Root {
-        t: at.t(found.s).max(lo).min(hi),
-        lo,
-        hi,
-        s: found.s,
-        tag: found.uv,
-        face: found.face,
-        sign,
-        kind,
-    })
+    root_at(at, (found.s, found.s_err), (found.face, found.uv), (found.sign, found.turn))
 }

@@ -50,17 +50,13 @@ use crate::tape::{Formula, FormulaError, VectorTape};
 use crate::{Container, Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use bounds::Bounds;
 use build::Refused;
-use durer_math::{Aabb, U};
+use durer_math::Aabb;
 use piece::Face;
 use sheet::Sheet;
 use std::sync::Arc;
 
 pub use path::PathSpline;
 pub use sweep::{PathSweep, SweepData, SweepError};
-
-/// Both sides of a seam are within this of each other, in units: the formula is evaluated to about
-/// that at its ends.
-const GAP: f64 = 16.0 * U;
 
 /// Why a [`Parametric`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -174,7 +170,7 @@ impl Parametric {
         let tape = VectorTape::new(formulas)?;
         let bounds = container.map_or(Bounds::NONE, Bounds::of);
         let sheet =
-            Sheet::new(vec![Face::new(tape, domain)], &bounds, GAP).map_err(|(_, refused)| refused)?;
+            Sheet::new(vec![Face::new(tape, domain)], &bounds, 0.0).map_err(|(_, refused)| refused)?;
         let sheet = sheet.ok_or(ParametricError::Nothing)?;
         Ok(Self { sheet: Arc::new(sheet) })
     }

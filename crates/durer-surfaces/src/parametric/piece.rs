@@ -179,6 +179,22 @@ impl Face {
 }
 
 impl Piece {
+    /// How far the map's edge may be from where it should be, on a piece at its border: by the rounding
+    /// of the formula, and by how far the domain reaches beyond its ends. 0 for other pieces.
+    pub(super) fn edge_error(&self, face: &Face) -> f64 {
+        let is_at_edge = (0..2).any(|k| {
+            let ([from, to], [first, last]) = (self.own[k], face.domain[k]);
+            from == first || to == last
+        });
+        let along = |c: usize| {
+            let moved =
+                |k: usize| (self.slope[c][k].abs() + self.slope_err[c][k]) * (face.slack[k] / self.width[k]);
+            self.p_err[c] + moved(0) + moved(1)
+        };
+        let off = (along(0) + along(1) + along(2)) * ROUNDED;
+        if is_at_edge && off.is_finite() { off } else { 0.0 }
+    }
+
     /// Half the width of the own box, in widths.
     pub(super) fn half(&self) -> f64 {
         let of = |k: usize| {

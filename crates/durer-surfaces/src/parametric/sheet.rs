@@ -49,8 +49,8 @@ thread_local! {
 impl Sheet {
     /// The sheet of these maps, as far as it is within `bounds`; `None` if nothing is.
     ///
-    /// Edges of maps that are to be one are within `gap` of each other, in units. An error says which
-    /// map is refused.
+    /// Edges of maps that are to be one are within `gap` of each other, in units, besides what the
+    /// formulas are off by there. An error says which map is refused.
     pub(super) fn new(faces: Vec<Face>, bounds: &Bounds, gap: f64) -> Result<Option<Self>, (u32, Refused)> {
         let mut all = Vec::new();
         for (number, face) in (0_u32..).zip(&faces) {
@@ -78,6 +78,9 @@ impl Sheet {
             *piece = piece.in_units(&unit);
         }
         let cut = bounds.in_units(&unit);
+        // Each side of a common edge is off by this.
+        let off = all.iter().map(|piece| piece.edge_error(&faces[piece.face as usize])).fold(0.0, f64::max);
+        let gap = gap + 2.0 * off;
         let boxes: Vec<Aabb> = all.iter().map(box_of).map(|held| held.intersection(cut.hull())).collect();
         let (tree, order) = Tree::new(&boxes);
         let pieces = order.iter().map(|&i| all[i as usize]).collect();

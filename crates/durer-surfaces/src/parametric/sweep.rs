@@ -76,12 +76,6 @@ pub enum SweepError {
     /// The vector that shows upward is along the path.
     #[error("sweep: `up` is parallel to the path at knot {0}")]
     Up(usize),
-    /// The path is curved.
-    #[error("not supported yet: sweeps along a {0}")]
-    Curved(&'static str),
-    /// The profile turns about the path.
-    #[error("not supported yet: twist")]
-    Twist,
     /// The formulas are too long.
     #[error("sweep: {0}")]
     Formula(#[from] FormulaError),
@@ -125,23 +119,15 @@ pub struct PathSweep {
     open: bool,
 }
 
+/// How far a point that starts a ray may be from where the ray is thought to start: the roundings of
+/// three coordinates relative to the centre and of the place along the ray, as a part of the largest.
+const START: f64 = 8.0 * durer_math::U;
 /// How far faces reach beyond their borders: more than the frames of neighbours differ by.
 const OVERLAP: f64 = durer_math::scale::pow2(-44);
 
 impl PathSweep {
-    /// The solid with flat caps, along straight lines with mitred corners.
+    /// The solid with flat caps.
     pub fn new(data: SweepData) -> Result<Self, SweepError> {
-        if data.spline != PathSpline::Linear {
-            return Err(SweepError::Curved(data.spline.name()));
-        }
-        if data.twist != 0.0 {
-            return Err(SweepError::Twist);
-        }
-        Self::along(data)
-    }
-
-    /// The solid along any path.
-    pub(super) fn along(data: SweepData) -> Result<Self, SweepError> {
         let (least, len) = (data.spline.least(), data.path.len());
         if len < least || data.spline == PathSpline::Bezier && len % 4 != 0 {
             return Err(SweepError::Points { what: data.spline.name(), least, len });
@@ -670,12 +656,12 @@ impl Surface for PathSweep {
         if self.open || !(0..3).all(|k| held.min[k] <= point.p[k] && point.p[k] <= held.max[k]) {
             return Side::Out;
         }
-        // A direction that no one chooses.
+        // Any direction will do; this one is parallel to no likely face.
         let ray = Ray::new(point.p, Vec3::new(0.351, 0.637, 0.686));
         let mut side = Side::Out;
         self.sheet.with_all(&LocalRay::new(&ray), |at, found| {
             let start = -at.shift();
-            let room = self.sheet.in_units(2.0 * point.p_err.max_abs() + 1e-15 * point.p.to_vec().max_abs());
+            let room = self.sheet.in_units(2.0 * point.p_err.max_abs() + START * point.p.to_vec().max_abs());
             for turn in self.turns(found) {
                 if (turn.found.s - start).abs() <= turn.found.s_err + room {
                     side = Side::On;

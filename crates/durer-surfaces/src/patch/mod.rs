@@ -37,7 +37,7 @@ mod point;
 mod seal;
 mod seam;
 mod sewn;
-mod shell;
+pub(crate) mod shell;
 mod subdivide;
 mod subdivision;
 mod surface;

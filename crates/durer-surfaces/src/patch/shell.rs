@@ -449,18 +449,30 @@ pub(super) fn joined(a: &Found, b: &Found) -> Found {
 /// the ray's range.
 #[inline(always)]
 pub(super) fn root(at: &CentredRay<'_>, found: &Found, tag: [f64; 2]) -> Option<Root> {
-    let (lo, hi) = at.bracket((found.s - found.s_err).next_down(), (found.s + found.s_err).next_up());
+    root_at(at, (found.s, found.s_err), (found.face, tag), (found.sign, found.turn))
+}
+
+/// A crossing at `s` in the caller's parameter, on a face at the parameters `tag`, with its sign (0 if
+/// it is not proven) and the side to which it leads in any case; `None` if it is not in the ray's range.
+#[inline(always)]
+pub(crate) fn root_at(
+    at: &CentredRay<'_>,
+    (s, s_err): (f64, f64),
+    (face, tag): (u32, [f64; 2]),
+    (sign, turn): (i8, i8),
+) -> Option<Root> {
+    let (lo, hi) = at.bracket((s - s_err).next_down(), (s + s_err).next_up());
     match at.admits(lo, hi) {
         Some(false) => return None,
         // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
         // start is the start.
-        None if lo <= 0.0 && at.spawned().is_some_and(|(_, face, _)| face == found.face) => return None,
+        None if lo <= 0.0 && at.spawned().is_some_and(|(_, own, _)| own == face) => return None,
         _ => {}
     }
-    let (kind, sign) = match (found.sign, found.turn) {
+    let (kind, sign) = match (sign, turn) {
         (0, 0) => (RootKind::Grazing, 0),
         (0, turn) => (RootKind::Cluster, turn),
         (sign, _) => (RootKind::Simple, sign),
     };
-    Some(Root { t: at.t(found.s).max(lo).min(hi), lo, hi, s: found.s, tag, face: found.face, sign, kind })
+    Some(Root { t: at.t(s).max(lo).min(hi), lo, hi, s, tag, face, sign, kind })
 }

@@ -7,6 +7,7 @@ use super::*;
 use crate::laws::{TestRng, TestSurface, all_roots, dice, drawn, report};
 use crate::tape::{Builder, NodeId, Op};
 use crate::{All, Axis, AxisBox, BezierPatch, CappedCylinder, RootKind, Sphere, Torus};
+use durer_math::U;
 use durer_math::{Function, Point3, Ray, Vec3};
 
 const PI: f64 = core::f64::consts::PI;

@@ -360,6 +360,12 @@ impl Limit {
             }
             let number = (self.leaves.len() + lists.extra.len()) as u32;
             if let Some(net) = node.net(&self.plans) {
+                // The hull of its own net is much smaller than that of the points about it.
+                let own: Vec<[f64; 3]> = net.relative(base).iter().map(|&[x, y, z, _]| [x, y, z]).collect();
+                let sight = line.sight(base, &own, E_POINTS);
+                if (0..2).any(|i| sight.f[i][0] > sight.e[i] || sight.f[i][1] < -sight.e[i]) {
+                    continue;
+                }
                 lists.extra.push(Extra { place: node.place, room: 0.0 });
                 lists.cells.clear();
                 let net = FaceNet::Square(net);
