@@ -271,8 +271,10 @@ fn sweeps_say_what_is_wrong_with_them() {
     says(&sweep("path linear_spline 1, x"), "at least 2 points, not 1");
     says(&sweep("path linear_spline 3, 0, y, 0"), "turns by 180 degrees at knot 1");
     says(&sweep("path linear_spline 3, 0, y, y"), "no tangent at knot 1");
-    says(&sweep("path cubic_spline 4, 0, x, y, z"), "not supported yet: sweeps along a cubic_spline");
-    says(&sweep("path linear_spline 3, 0, x, x + y twist 90"), "not supported yet: twist");
+    says(&sweep("path cubic_spline 3, x, y, z"), "at least 4 points, not 3");
+    says(&sweep("path bezier_spline 5, 0, x, y, z, 0"), "5 is not a multiple of 4");
+    says(&sweep("path bezier_spline 8, 0, x, y, z, x, y, 0, z"), "broken at knot 1");
+    says(&sweep("path bezier_spline 8, 0, x, y, z, z, x, y, 0"), "has a corner at knot 1");
     says(&sweep("path linear_spline 3, 0, y, x size 3, 1, 0, 1"), "a size must be positive, got 0");
     says(&sweep("path linear_spline 2, x, x"), "both ends of the path are <1, 0, 0>");
     says(&sweep("path linear_spline 2, 0, y up 2*y"), "up, <0, 2, 0>, must not be parallel to the path");

@@ -49,10 +49,12 @@ class Prism(Object):
 class Sweep(Object):
     """Closed outlines, arrays (n, 2), moved along a path, an array (n, 3) of points.
 
-    `spline` says how an outline goes through its points: "linear" or "bezier" (four points for each piece). The path is a
-    polygon with mitred corners. `sizes` has the profile's size at each point, linear in between; without it, 1. The
+    `spline` says how an outline goes through its points: "linear" or "bezier" (four points for each piece);
+    `path_spline` how the path does: "linear" (with mitred corners), "cubic" (through all points but the first and the
+    last), "b" or "bezier". `sizes` has the profile's size at each point, along the same spline; without it, 1. The
     profile's second axis points to the side of `up`; without `up`, the smallest rotation of z onto the path turns x and y
-    into its axes, and from there on they turn as little as can be. A solid with flat caps.
+    into its axes, and from there on they turn as little as can be. `twist` is the whole turn about the path in radians.
+    A solid with flat caps.
 
     Examples
     --------
@@ -71,6 +73,8 @@ class Sweep(Object):
         sizes: npt.ArrayLike | None = None,
         up: npt.ArrayLike | None = None,
         spline: str = "linear",
+        path_spline: str = "linear",
+        twist: float = 0.0,
     ) -> None:
         loops = tuple(row_tuples(outline, 2, "outlines") for outline in outlines)
         points = row_tuples(path, 3, "path")
@@ -79,8 +83,8 @@ class Sweep(Object):
             raise ValueError(f"sizes: shape ({len(points)},) is needed, got {given.shape}")
         side = None if up is None else vector(up, "up")
         all_sizes = tuple(float(size) for size in given)
-        arguments = (loops, points, all_sizes, side, str(spline))
-        self._set(_native.sweep(*arguments, "linear", 0.0), arguments)
+        arguments = (loops, points, all_sizes, side, str(spline), str(path_spline), number(twist, "twist"))
+        self._set(_native.sweep(*arguments), arguments)
 
 
 @final

@@ -37,12 +37,14 @@ mod bounds;
 mod build;
 mod crossings;
 mod line;
+mod outline;
 mod path;
 mod piece;
 mod point;
 mod sheet;
 mod subdivide;
 mod sweep;
+mod sweep_maps;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;

@@ -10,9 +10,9 @@
 //!
 //! Inside a span of the path the frame is the smallest rotation of the span's first frame onto the
 //! tangent, and then what is left of the turn to the next knot's frame, and the twist, evenly in `u`
-//! (`path.rs`). With `up`, X of a curved span is at right angles to it everywhere. Straight spans begin and end in the
-//! planes that halve the angles of the corners. Each piece of the profile along each span is one map
-//! of a rectangle (`sheet.rs`).
+//! (`path.rs`). With `up`, X of a curved span is at right angles to it everywhere. Straight spans
+//! begin and end in the planes that halve the angles of the corners. Each piece of the profile along
+//! each span is one map of a rectangle (`sweep_maps.rs`, `sheet.rs`).
 //!
 //! The caps are maps too: `q + r (p(v) - q)` for a point `q` of the profile's plane, which covers the
 //! plane as often as the profile goes round it. So walls and caps form closed surfaces with an
@@ -23,18 +23,19 @@ use super::bounds::Bounds;
 use super::build::Refused;
 use super::crossings::{on_border, root};
 use super::line::Found;
-use super::path::{PathSpline, Span, framed};
-use super::piece::Face;
+use super::outline::{centre, oriented};
+use super::path::{PathSpline, framed};
 use super::sheet::Sheet;
+use super::sweep_maps::{Maps, OVERLAP};
 use crate::compose::clip::Algebraic;
 use crate::mesh::Sorted;
 use crate::packet::FilterSource;
 use crate::prism::curved::Bezier;
-use crate::tape::{Builder, FormulaError, NodeId, Op, VectorTape};
+use crate::tape::FormulaError;
 use crate::{
     Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
 };
-use durer_math::{Aabb, Function, Ray, Vec3};
+use durer_math::{Aabb, Ray, Vec3};
 use std::sync::Arc;
 
 /// Why a [`PathSweep`] cannot exist. Knots count from 0.
@@ -122,8 +123,6 @@ pub struct PathSweep {
 /// How far a point that starts a ray may be from where the ray is thought to start: the roundings of
 /// three coordinates relative to the centre and of the place along the ray, as a part of the largest.
 const START: f64 = 8.0 * durer_math::U;
-/// How far faces reach beyond their borders: more than the frames of neighbours differ by.
-const OVERLAP: f64 = durer_math::scale::pow2(-44);
 
 impl PathSweep {
     /// The solid with flat caps.
@@ -148,21 +147,21 @@ impl PathSweep {
         if pieces.is_empty() {
             return Err(SweepError::Profile);
         }
-        let kind = Kind { spline: data.spline, up: data.up, twist: data.twist / spans.len() as f64 };
+        let maps = Maps { spline: data.spline, up: data.up, twist: data.twist / spans.len() as f64 };
         let mut faces = Vec::new();
         for (number, span) in spans.iter().enumerate() {
             for piece in &pieces {
-                faces.push(kind.wall(number, span, piece)?);
+                faces.push(maps.wall(number, span, piece)?);
             }
         }
         let walls = faces.len();
         let middle = centre(&pieces);
         for piece in &pieces {
-            faces.push(kind.cap(0, &spans[0], piece, middle, false)?);
+            faces.push(maps.cap(0, &spans[0], piece, middle, false)?);
         }
         let last = spans.len() - 1;
         for piece in &pieces {
-            faces.push(kind.cap(last, &spans[last], piece, middle, true)?);
+            faces.push(maps.cap(last, &spans[last], piece, middle, true)?);
         }
         let number = pieces.len();
         let sheet = match Sheet::new(faces, &Bounds::NONE, OVERLAP) {
@@ -205,7 +204,8 @@ impl PathSweep {
                     roots.push(Root { sign, kind, ..root });
                 }
             }
-            roots.pour(sink);
+            // Going in stays before coming out, also where both are at one place.
+            roots.pour_in_turn(sink);
         });
     }
 
@@ -300,315 +300,6 @@ struct Turn {
     sign: i8,
     /// By how much the number changes.
     weight: i32,
-}
-
-/// What all maps of a sweep have in common.
-struct Kind {
-    spline: PathSpline,
-    up: Option<Vec3>,
-    /// The twist of a span.
-    twist: f64,
-}
-
-/// A vector of formulas.
-type Vector = [NodeId; 3];
-
-/// Writes the formulas of one map.
-struct Pen(Builder);
-
-type Written<T> = Result<T, FormulaError>;
-
-impl Pen {
-    fn number(&mut self, x: f64) -> Written<NodeId> {
-        self.0.constant(x)
-    }
-
-    fn constant(&mut self, v: Vec3) -> Written<Vector> {
-        Ok([self.number(v.x)?, self.number(v.y)?, self.number(v.z)?])
-    }
-
-    fn add(&mut self, a: NodeId, b: NodeId) -> Written<NodeId> {
-        self.0.push(Op::Add(a, b))
-    }
-
-    fn sub(&mut self, a: NodeId, b: NodeId) -> Written<NodeId> {
-        self.0.push(Op::Sub(a, b))
-    }
-
-    fn mul(&mut self, a: NodeId, b: NodeId) -> Written<NodeId> {
-        self.0.push(Op::Mul(a, b))
-    }
-
-    fn sum(&mut self, a: Vector, b: Vector) -> Written<Vector> {
-        Ok([self.add(a[0], b[0])?, self.add(a[1], b[1])?, self.add(a[2], b[2])?])
-    }
-
-    fn times(&mut self, k: NodeId, a: Vector) -> Written<Vector> {
-        Ok([self.mul(k, a[0])?, self.mul(k, a[1])?, self.mul(k, a[2])?])
-    }
-
-    fn dot(&mut self, a: Vector, b: Vector) -> Written<NodeId> {
-        let mut sum = self.mul(a[0], b[0])?;
-        for k in 1..3 {
-            let term = self.mul(a[k], b[k])?;
-            sum = self.add(sum, term)?;
-        }
-        Ok(sum)
-    }
-
-    fn cross(&mut self, a: Vector, b: Vector) -> Written<Vector> {
-        let mut out = a;
-        for k in 0..3 {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let (p, q) = (self.mul(a[i], b[j])?, self.mul(a[j], b[i])?);
-            out[k] = self.sub(p, q)?;
-        }
-        Ok(out)
-    }
-
-    fn unit(&mut self, a: Vector) -> Written<Vector> {
-        let square = self.dot(a, a)?;
-        let length = self.0.push(Op::Sqrt(square))?;
-        let mut out = a;
-        for x in &mut out {
-            *x = self.0.push(Op::Div(*x, length))?;
-        }
-        Ok(out)
-    }
-
-    /// A Bezier curve at `t`; its coefficients are rounded once, alike for equal points.
-    fn bezier(&mut self, points: [f64; 4], t: NodeId) -> Written<NodeId> {
-        let one = self.number(1.0)?;
-        let s = self.sub(one, t)?;
-        let (ss, tt) = (self.0.push(Op::Sqr(s))?, self.0.push(Op::Sqr(t))?);
-        let three = self.number(3.0)?;
-        let (a, d) = (self.mul(ss, s)?, self.mul(tt, t)?);
-        let (b, c) = (self.mul(ss, t)?, self.mul(s, tt)?);
-        let (b, c) = (self.mul(three, b)?, self.mul(three, c)?);
-        let mut sum = self.number(0.0)?;
-        for (weight, p) in [a, b, c, d].into_iter().zip(points) {
-            let p = self.number(p)?;
-            let term = self.mul(weight, p)?;
-            sum = self.add(sum, term)?;
-        }
-        Ok(sum)
-    }
-
-    /// The slope of a Bezier curve, divided by 3.
-    fn slope(&mut self, p: [f64; 4], t: NodeId) -> Written<NodeId> {
-        let one = self.number(1.0)?;
-        let s = self.sub(one, t)?;
-        let (ss, tt, st) = (self.0.push(Op::Sqr(s))?, self.0.push(Op::Sqr(t))?, self.mul(s, t)?);
-        let two = self.number(2.0)?;
-        let st = self.mul(two, st)?;
-        let mut sum = self.number(0.0)?;
-        for (weight, k) in [ss, st, tt].into_iter().zip(0..) {
-            let (a, b) = (self.number(p[k])?, self.number(p[k + 1])?);
-            let step = self.sub(b, a)?;
-            let term = self.mul(weight, step)?;
-            sum = self.add(sum, term)?;
-        }
-        Ok(sum)
-    }
-}
-
-/// A coordinate of control points.
-fn coordinate(points: &[[f64; 4]; 4], k: usize) -> [f64; 4] {
-    points.map(|p| p[k])
-}
-
-impl Kind {
-    /// The point of the profile's plane with these coordinates, at `u` of a span.
-    fn point(
-        &self,
-        pen: &mut Pen,
-        (number, span): (usize, &Span),
-        ab: [NodeId; 2],
-        u: NodeId,
-    ) -> Written<Vector> {
-        if self.spline == PathSpline::Linear {
-            return self.straight(pen, (number, span), ab, u);
-        }
-        let mut c = [u; 3];
-        let mut slope = [u; 3];
-        for k in 0..3 {
-            c[k] = pen.bezier(coordinate(&span.points, k), u)?;
-            slope[k] = pen.slope(coordinate(&span.points, k), u)?;
-        }
-        let t = pen.unit(slope)?;
-        let x = match self.up {
-            Some(up) => {
-                let up = pen.constant(up)?;
-                let x = pen.cross(up, t)?;
-                pen.unit(x)?
-            }
-            None => {
-                // The smallest rotation of the first tangent onto this one.
-                let (first, x) = (pen.constant(span.t)?, pen.constant(span.x)?);
-                let sum = pen.sum(first, t)?;
-                let (over, under, one) = (pen.dot(x, t)?, pen.dot(first, t)?, pen.number(-1.0)?);
-                let under = pen.sub(one, under)?;
-                let by = pen.0.push(Op::Div(over, under))?;
-                let back = pen.times(by, sum)?;
-                pen.sum(x, back)?
-            }
-        };
-        let off = self.offset(pen, (number, span), (x, t), ab, u)?;
-        let size = pen.bezier(coordinate(&span.points, 3), u)?;
-        let off = pen.times(size, off)?;
-        pen.sum(c, off)
-    }
-
-    /// `a X + b Y` after the turn and the twist at `u`.
-    fn offset(
-        &self,
-        pen: &mut Pen,
-        (number, span): (usize, &Span),
-        (x, t): (Vector, Vector),
-        [a, b]: [NodeId; 2],
-        u: NodeId,
-    ) -> Written<Vector> {
-        let y = pen.cross(t, x)?;
-        let (start, turn) = (self.twist * number as f64, self.twist + span.turn);
-        let (mut a, mut b) = (a, b);
-        if start != 0.0 || turn != 0.0 {
-            let (start, turn) = (pen.number(start)?, pen.number(turn)?);
-            let angle = pen.mul(turn, u)?;
-            let angle = pen.add(start, angle)?;
-            let s = pen.0.push(Op::Function(Function::Sin, angle))?;
-            let c = pen.0.push(Op::Function(Function::Cos, angle))?;
-            let (ac, bs, sa, cb) = (pen.mul(a, c)?, pen.mul(b, s)?, pen.mul(a, s)?, pen.mul(b, c)?);
-            (a, b) = (pen.sub(ac, bs)?, pen.add(sa, cb)?);
-        }
-        let (x, y) = (pen.times(a, x)?, pen.times(b, y)?);
-        pen.sum(x, y)
-    }
-
-    /// The same along a straight span, between the planes that halve its corners.
-    fn straight(&self, pen: &mut Pen, at: (usize, &Span), ab: [NodeId; 2], u: NodeId) -> Written<Vector> {
-        let span = at.1;
-        let (x, t) = (pen.constant(span.x)?, pen.constant(span.t)?);
-        let one = pen.number(1.0)?;
-        let rest = pen.sub(one, u)?;
-        let [from, to] = [span.points[0], span.points[3]];
-        let mut size = pen.number(0.0)?;
-        let mut sum = [size; 3];
-        // How far along the tangent the ends are moved.
-        let mut along = size;
-        for (end, (weight, p)) in [(rest, from), (u, to)].into_iter().enumerate() {
-            let place = pen.constant(Vec3::new(p[0], p[1], p[2]))?;
-            let place = pen.times(weight, place)?;
-            sum = pen.sum(sum, place)?;
-            let own = pen.number(p[3])?;
-            let part = pen.mul(weight, own)?;
-            size = pen.add(size, part)?;
-            let mitre = pen.constant(span.mitres[end])?;
-            let here = pen.number(end as f64)?;
-            let off = self.offset(pen, at, (x, t), ab, here)?;
-            let (over, under) = (pen.dot(off, mitre)?, pen.dot(t, mitre)?);
-            let by = pen.0.push(Op::Div(over, under))?;
-            let by = pen.mul(part, by)?;
-            along = pen.sub(along, by)?;
-        }
-        let off = self.offset(pen, at, (x, t), ab, u)?;
-        let (off, along) = (pen.times(size, off)?, pen.times(along, t)?);
-        let sum = pen.sum(sum, off)?;
-        pen.sum(sum, along)
-    }
-
-    /// A piece of the profile along a span: parameters along the profile and along the span.
-    fn wall(&self, number: usize, span: &Span, piece: &Bezier) -> Written<Face> {
-        let mut pen = Pen(Builder::new());
-        let (v, u) = (pen.0.input(0)?, pen.0.input(1)?);
-        let ab = profile(&mut pen, piece, v)?;
-        let roots = self.point(&mut pen, (number, span), ab, u)?;
-        Ok(Face::new(VectorTape::of(&pen.0, roots), [[0.0, 1.0]; 2]).reaching(OVERLAP))
-    }
-
-    /// What a piece of the profile adds to a cap: all points between it and `q`. Its normal points
-    /// outward, away from the path.
-    fn cap(&self, number: usize, span: &Span, piece: &Bezier, q: [f64; 2], at_end: bool) -> Written<Face> {
-        let mut pen = Pen(Builder::new());
-        let inputs = [pen.0.input(0)?, pen.0.input(1)?];
-        let [v, r] = if at_end { [inputs[1], inputs[0]] } else { inputs };
-        let mut ab = profile(&mut pen, piece, v)?;
-        for (x, q) in ab.iter_mut().zip(q) {
-            let q = pen.number(q)?;
-            let by = pen.sub(*x, q)?;
-            let by = pen.mul(r, by)?;
-            *x = pen.add(q, by)?;
-        }
-        let u = pen.number(if at_end { 1.0 } else { 0.0 })?;
-        let roots = self.point(&mut pen, (number, span), ab, u)?;
-        Ok(Face::new(VectorTape::of(&pen.0, roots), [[0.0, 1.0]; 2]).reaching(OVERLAP))
-    }
-}
-
-/// A point of the profile.
-fn profile(pen: &mut Pen, piece: &Bezier, v: NodeId) -> Written<[NodeId; 2]> {
-    let of = |pen: &mut Pen, k: usize| -> Written<NodeId> {
-        let [a, _, _, d] = piece.map(|p| p[k]);
-        if is_straight(piece) {
-            let (a, d) = (pen.number(a)?, pen.number(d)?);
-            let one = pen.number(1.0)?;
-            let rest = pen.sub(one, v)?;
-            let (a, d) = (pen.mul(rest, a)?, pen.mul(v, d)?);
-            return pen.add(a, d);
-        }
-        pen.bezier(piece.map(|p| p[k]), v)
-    };
-    Ok([of(pen, 0)?, of(pen, 1)?])
-}
-
-/// A straight edge has its own ends as its inner control points.
-fn is_straight(piece: &Bezier) -> bool {
-    piece[0] == piece[1] && piece[2] == piece[3]
-}
-
-/// Twice the area within an outline of its control points' chords, with a sign.
-fn area(outline: &[Bezier]) -> f64 {
-    let points = outline.iter().flat_map(|piece| piece[..3].iter());
-    let points: Vec<_> = points.collect();
-    let next = |k: usize| points[(k + 1) % points.len()];
-    (0..points.len()).map(|k| points[k][0] * next(k)[1] - points[k][1] * next(k)[0]).sum()
-}
-
-/// The outlines, each with the inside of the profile to its left: those within an odd number of
-/// others are holes.
-fn oriented(outlines: &[Vec<Bezier>]) -> Vec<Vec<Bezier>> {
-    let crosses = |[x, y]: [f64; 2], piece: &Bezier| {
-        piece.windows(2).fold(false, |odd, w| {
-            let ([ax, ay], [bx, by]) = (w[0], w[1]);
-            let between = (ay > y) != (by > y);
-            odd ^ (between && x < (bx - ax) * (y - ay) / (by - ay) + ax)
-        })
-    };
-    let within =
-        |p: [f64; 2], outline: &[Bezier]| outline.iter().fold(false, |odd, piece| odd ^ crosses(p, piece));
-    let mut out = Vec::new();
-    for (k, outline) in outlines.iter().enumerate() {
-        let Some(first) = outline.first() else { continue };
-        let others = outlines.iter().enumerate().filter(|(i, _)| *i != k);
-        let is_hole = others.fold(false, |odd, (_, other)| odd ^ within(first[0], other));
-        let mut outline = outline.clone();
-        if (area(&outline) > 0.0) == is_hole {
-            outline.reverse();
-            outline.iter_mut().for_each(|piece| piece.reverse());
-        }
-        out.push(outline);
-    }
-    out
-}
-
-/// A point in the middle of the profile, beside its symmetries.
-fn centre(pieces: &[Bezier]) -> [f64; 2] {
-    [0, 1].map(|k: usize| {
-        let (low, high) = pieces
-            .iter()
-            .flatten()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])));
-        low + (high - low) * [0.5093, 0.4871][k]
-    })
 }
 
 /// Equal if they are made of the same.
