@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use crate::value_error;
 use durer::geometry::Geometry;
 use durer::math::{Point3, Ray};
+use durer::surfaces::RootKind;
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -76,7 +77,8 @@ fn closest<'py>(
     })
 }
 
-/// The object and the primitive of the first hit of each ray, -1 where there is none: less work than `closest`.
+/// The object and the primitive of the first hit of each ray, -1 where there is none, and whether any hit is a touch: less work than
+/// `closest`.
 #[pyfunction]
 fn closest_ids<'py>(
     scene: &Scene,
@@ -86,20 +88,22 @@ fn closest_ids<'py>(
     ranges: Option<Matrix<'py>>,
     threads: usize,
     progress: Progress<'py>,
-) -> PyResult<(Numbers<'py>, Numbers<'py>)> {
+) -> PyResult<(Numbers<'py>, Numbers<'py>, bool)> {
     let geometry = scene.geometry();
     with_rays(&origins, &directions, ranges.as_ref(), |rays| {
         let (mut objects, mut primitives) = (Vec::with_capacity(rays.len()), Vec::with_capacity(rays.len()));
+        let mut any_touch = false;
         let work = |range: std::ops::Range<usize>| geometry.closest_batch(&rays.of(range));
         run(py, rays.len(), How { threads, progress }, work, |found| {
             for hit in found {
+                any_touch |= hit.as_ref().is_some_and(|h| h.kind == RootKind::Grazing);
                 let (object, primitive) =
                     hit.map_or((-1, -1), |h| (i64::from(h.object), i64::from(h.primitive)));
                 objects.push(object);
                 primitives.push(primitive);
             }
         })?;
-        Ok((PyArray1::from_vec(py, objects), PyArray1::from_vec(py, primitives)))
+        Ok((PyArray1::from_vec(py, objects), PyArray1::from_vec(py, primitives), any_touch))
     })
 }
 

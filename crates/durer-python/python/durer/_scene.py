@@ -366,8 +366,8 @@ class Scene:
 
     def _closest_ids(
         self, origins: Floats, directions: Floats, threads: int | None = None
-    ) -> tuple[Ints, Ints]:
-        """Object and primitive of each ray's first hit, -1 for none: less work than `closest`."""
+    ) -> tuple[Ints, Ints, bool]:
+        """Object and primitive of each ray's first hit, -1 for none, and whether any is a touch: less work than `closest`."""
         start, along, ranges = rays(origins, directions)
         return _native.closest_ids(self._native, start, along, ranges, thread_count(threads), None)
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from ._arrays import Bools, Floats, Ints, table
 from ._mesh import Mesh
+from ._results import AllHits, Hits
 from ._scene import Scene
 
 __all__ = ["RayMeshIntersector", "install"]
@@ -24,12 +25,14 @@ _PROBES = ((0.4395064455, 0.617598629942, 0.652231566745), (0.83, -0.27, 0.49), 
 _ROUNDING = 16 * 2.0**-53
 
 
-def _runs_along(kind: npt.NDArray[Any], normal: Floats, directions: Floats) -> Bools:
+def _runs_along(hits: Hits | AllHits, directions: Floats) -> Bools:
     """Which hits are touches of rays that run along a face: by trimesh's convention these miss."""
-    along: Bools = kind == 1
+    along: Bools = hits.kind == 1
+    # Normals cost more than all the rest, and touches are rare.
     if along.any():
-        slope = np.abs(np.einsum("ij,ij->i", normal[along], directions[along]))
-        along[along] = slope <= _ROUNDING * np.abs(directions[along]).max(axis=1)
+        rows = (directions[hits.ray] if isinstance(hits, AllHits) else directions)[along]
+        slope = np.abs(np.einsum("ij,ij->i", hits.normal[along], rows))
+        along[along] = slope <= _ROUNDING * np.abs(rows).max(axis=1)
     return along
 
 
@@ -140,19 +143,20 @@ class RayMeshIntersector:
         threads = self.threads or None
         if not multiple_hits:
             first = scene.closest(origins, directions, threads=threads)
-            if not _runs_along(first.kind, first.normal, directions).any():
+            if not _runs_along(first, directions).any():
                 index_ray = np.nonzero(first.hit)[0]
                 index_tri = first.primitive[index_ray]
                 return (index_tri, index_ray, first.position[index_ray]) if return_locations else (index_tri, index_ray)
             max_hits = 1
         hits = scene.all(origins, directions, threads=threads)
-        keep = ~_runs_along(hits.kind, hits.normal, directions[hits.ray])
+        keep = ~_runs_along(hits, directions)
         if max_hits is not None:
             # The number of each hit among those of its ray that are kept.
             before = np.concatenate([[0], np.cumsum(keep)])
             keep &= before[:-1] - before[hits.offsets[:-1]][hits.ray] < max_hits
-        index_tri, index_ray = hits.primitive[keep], hits.ray[keep]
-        return (index_tri, index_ray, hits.position[keep]) if return_locations else (index_tri, index_ray)
+        rows: Any = slice(None) if keep.all() else keep
+        index_tri, index_ray = hits.primitive[rows], hits.ray[rows]
+        return (index_tri, index_ray, hits.position[rows]) if return_locations else (index_tri, index_ray)
 
     def intersects_first(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **kwargs: Any
@@ -160,12 +164,17 @@ class RayMeshIntersector:
         """The triangle that each ray hits first, -1 if it misses: int64 (n,)."""
         scene = self._scene()
         origins, directions = table(ray_origins, 3, "ray_origins"), table(ray_directions, 3, "ray_directions")
-        return scene._closest_ids(origins, directions, self.threads or None)[1]
+        triangles, may_run_along = scene._closest_ids(origins, directions, self.threads or None)[1:]
+        if may_run_along:
+            first, ray = self.intersects_id(origins, directions, multiple_hits=False)[:2]
+            triangles[:] = -1
+            triangles[ray] = first
+        return triangles
 
     def intersects_any(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **kwargs: Any
     ) -> Bools:
-        """Whether each ray hits anything: bool (n,)."""
+        """Whether each ray hits anything, a face that it runs along included: bool (n,)."""
         scene = self._scene()
         return scene.any(ray_origins, ray_directions, threads=self.threads or None)
 
