@@ -14,6 +14,7 @@ sweep {
     #local A = 2*pi*I/Knot;
     <sin(A) + 2*sin(2*A), cos(A) - 2*cos(2*A), -sin(3*A)>*0.3,
   #end
+  twist 127.484 // brings the frame back to where it began
   texture { Gold }
   rotate x*20 rotate y*25 translate <-0.55, 1.05, 0.5>
 }
