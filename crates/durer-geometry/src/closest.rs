@@ -19,10 +19,11 @@ impl Placement {
     /// The hit for a root of a slot in this placement.
     #[inline(always)]
     pub(crate) fn hit(&self, arena: u32, slot: u32, name: Id, root: &Root) -> Hit {
+        // Minus zero becomes zero: the least of both is either one, by the processor's instructions.
         Hit {
-            t: root.t,
-            t_lo: root.lo,
-            t_hi: root.hi,
+            t: root.t + 0.0,
+            t_lo: root.lo + 0.0,
+            t_hi: root.hi + 0.0,
             uv: root.tag,
             object: self.object.wrapping_add(name.object),
             primitive: self.primitive.wrapping_add(name.primitive),

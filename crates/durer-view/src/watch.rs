@@ -66,14 +66,19 @@ pub(crate) fn watch(session: &Session) {
         if !watched.has_changed() {
             continue;
         }
-        // A file that is being written is read when it stays as it is.
-        loop {
+        // A file that is being written is read when it stays as it is, and again if it was written
+        // while it was read: each change is shown once.
+        let loaded = loop {
             std::thread::sleep(PAUSE / 5);
-            if !watched.has_changed() {
-                break;
+            if watched.has_changed() {
+                continue;
             }
-        }
-        match session.file.load() {
+            let loaded = session.file.load();
+            if !watched.has_changed() {
+                break loaded;
+            }
+        };
+        match loaded {
             Ok(stage) => {
                 watched.follow(stage.origin.files());
                 session.replace(stage);
