@@ -15,8 +15,8 @@ use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::sphere_chart;
 use crate::{
-    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
+    Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
@@ -399,10 +399,6 @@ impl<const N: usize> Dense<N> {
 }
 
 impl Surface for AlgebraicSurface {
-    fn name(&self) -> &'static str {
-        "algebraic surface"
-    }
-
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
     }
@@ -421,14 +417,6 @@ impl Surface for AlgebraicSurface {
         }
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        match &self.0 {
-            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
-            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
-            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
-        }
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
@@ -438,6 +426,20 @@ impl Surface for AlgebraicSurface {
             Fitting::Four(p) => polynomial_surface::side(p, point),
             Fitting::Eight(p) => polynomial_surface::side(p, point),
             Fitting::Sixteen(p) => polynomial_surface::side(p, point),
+        }
+    }
+}
+
+impl Accelerate for AlgebraicSurface {
+    fn name(&self) -> &'static str {
+        "algebraic surface"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        match &self.0 {
+            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
+            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
+            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
         }
     }
 }

@@ -39,6 +39,7 @@
 #[cfg(test)]
 extern crate self as durer_surfaces;
 
+mod accelerate;
 pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
@@ -86,6 +87,7 @@ pub mod textbook;
 pub mod torus;
 pub mod triangle;
 
+pub use crate::accelerate::{Accelerate, PartId};
 pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
@@ -130,11 +132,11 @@ pub use crate::quadric::solid::QuadricSolid;
 pub use crate::ray::{CentredRay, End, LocalPoint, LocalRay, PREVIEW_WIDTH, RingRay, WideCache};
 pub use crate::revolution::SurfaceOfRevolution;
 pub use crate::revolution::lathe::{Lathe, LatheError, LatheSpline};
-pub use crate::sink::{All, Any, Closest, FirstCrossing, Flow, Forward, Sink};
+pub use crate::sink::{All, Any, Closest, FirstCrossing, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::sphere_sweep::{SphereSweep, SphereSweepError, SweepSpline};
-pub use crate::surface::{Need, PartId, Root, RootKind, Side, Solidity, Surface};
+pub use crate::surface::{Need, Root, RootKind, Side, Solidity, Surface};
 pub use crate::swift::{Crossings, meet_eight};
 pub use crate::terrain::{HeightField, HeightFieldError, Terrain, TerrainData, TerrainError};
 pub use crate::torus::{Axis, Torus, TorusError};

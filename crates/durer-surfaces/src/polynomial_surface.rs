@@ -9,11 +9,10 @@ use crate::ray::PREVIEW_WIDTH;
 use crate::roots::exact::ExactRoots;
 use crate::roots::polynomial::{Along, Found, Stretch, solve, stays};
 use crate::roots::quadratic::{Limits, NARROW, Quadratic};
-use crate::{
-    CentredRay, End, Flow, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint,
-};
+use crate::{CentredRay, End, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
@@ -183,7 +182,7 @@ struct Showing<'a, Z> {
 
 impl<Z> Showing<'_, Z> {
     #[inline(never)]
-    fn show<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    fn show<const N: usize>(&mut self, found: &Found<'_>) -> ControlFlow<()>
     where
         Z: PolynomialSurface<N>,
     {
@@ -194,7 +193,7 @@ impl<Z> Showing<'_, Z> {
     }
 
     #[inline(always)]
-    fn show_here<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    fn show_here<const N: usize>(&mut self, found: &Found<'_>) -> ControlFlow<()>
     where
         Z: PolynomialSurface<N>,
     {
@@ -202,13 +201,13 @@ impl<Z> Showing<'_, Z> {
         let (lo, hi) = at.bracket(outward(found.lo, -1.0), outward(found.hi, 1.0));
         let (near, far) = self.sink.range();
         if lo > far.min(ray.t_max) {
-            return Flow::Stop;
+            return ControlFlow::Break(());
         }
         if hi < near.max(ray.t_min) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         if at.admits(lo, hi) != Some(true) && !in_range(shape, found, at, mid) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let t = at.t(found.s).max(lo).min(hi).max(ray.t_min).min(ray.t_max).max(self.least);
         self.least = t;

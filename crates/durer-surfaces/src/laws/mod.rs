@@ -17,7 +17,7 @@ pub use real_root::{RealRoot, ZeroOracle, real_roots};
 pub use test_rng::{Feature, TestRng, aim};
 
 use crate::{
-    All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,
+    Accelerate, All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
@@ -221,7 +221,10 @@ pub fn roots_are_the_exact_crossings(
 
 /// The parts of a surface have the roots of the whole, each within the part's box. Returns how many
 /// parts were tested and how many roots they have.
-pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
+pub fn parts_are_the_whole<S: TestSurface + Accelerate>(
+    surface: &S,
+    ray: &Ray,
+) -> Result<(usize, usize), Broken> {
     let local = LocalRay::new(ray);
     let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
     surface.parts(&mut |bounds, part| {

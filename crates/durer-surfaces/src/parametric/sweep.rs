@@ -32,7 +32,8 @@ use crate::packet::FilterSource;
 use crate::prism::curved::Bezier;
 use crate::tape::{Builder, FormulaError, NodeId, Op, VectorTape};
 use crate::{
-    Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use durer_math::{Aabb, Function, Ray, Vec3};
 use std::sync::Arc;
@@ -619,10 +620,6 @@ impl PartialEq for PathSweep {
 }
 
 impl Surface for PathSweep {
-    fn name(&self) -> &'static str {
-        "sweep"
-    }
-
     fn bounds(&self) -> Aabb {
         self.sheet.bounds
     }
@@ -678,6 +675,12 @@ impl Surface for PathSweep {
             }
         });
         side
+    }
+}
+
+impl Accelerate for PathSweep {
+    fn name(&self) -> &'static str {
+        "sweep"
     }
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {

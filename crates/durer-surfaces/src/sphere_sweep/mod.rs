@@ -34,7 +34,10 @@ use crate::blob::Tree;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Isa, Point3, U, Vec3};
 use spline::{B_SPLINE, Basis, CUBIC, LINEAR};
@@ -240,10 +243,6 @@ impl PartialEq for SphereSweep {
 }
 
 impl Surface for SphereSweep {
-    fn name(&self) -> &'static str {
-        "sphere sweep"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -264,16 +263,22 @@ impl Surface for SphereSweep {
         )
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.bounds)
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         with_basis!(self.spline, basis => self.side_of(basis, point))
+    }
+}
+
+impl Accelerate for SphereSweep {
+    fn name(&self) -> &'static str {
+        "sphere sweep"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds)
     }
 }
 

@@ -6,7 +6,7 @@ use super::spline::Basis;
 use super::{SphereSweep, exact};
 use crate::blob::{Along, Inner};
 use crate::roots::quadratic::NARROW;
-use crate::{CentredRay, End, Flow, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
+use crate::{CentredRay, End, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
 use core::cell::Cell;
 use core::cmp::Ordering;
@@ -295,7 +295,7 @@ fn show<const K: usize, const M: usize>(
             };
             let tag = [f64::from(piece), x];
             let root = Root { t, lo, hi: hi.max(t), s: end.s, tag, face: 0, sign, kind };
-            if sink.push(root) == Flow::Stop {
+            if sink.push(root).is_break() {
                 return;
             }
         }
