@@ -10,10 +10,9 @@
 
 use crate::packet::{FilterSource, PacketKernel, Terms};
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
+use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
-use crate::sphere::sphere_chart;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,
@@ -351,12 +350,7 @@ impl<const N: usize> PolynomialSurface<N> for Dense<N> {
 
     /// Longitude and latitude as seen from the origin.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart {
-        if y == Vec3::ZERO {
-            let (dpdu, dpdv) = tangents(n);
-            return Chart { uv: [0.0; 2], dpdu, dpdv };
-        }
-        let Chart { uv, dpdu, dpdv } = sphere_chart(y);
-        Chart { uv, dpdu: sheared(dpdu, y, n), dpdv: sheared(dpdv, y, n) }
+        polynomial_surface::longitude_and_latitude(y, n)
     }
 
     fn tip(&self, y: Vec3) -> Vec3 {
@@ -380,21 +374,7 @@ impl<const N: usize> Dense<N> {
                 return g * (1.0 / g.length());
             }
         }
-        // Of the thirteen directions of a cube, the one along which the polynomial leaves zero
-        // most.
-        let mut best = (Vec3::Z, -1.0);
-        for code in 14..27 {
-            let axis = |p: u32| f64::from(code / p % 3) - 1.0;
-            let v = Vec3::new(axis(9), axis(3), axis(1));
-            let v = v * (1.0 / v.length());
-            let value =
-                |y: Vec3| self.at(&y.to_array().map(EFloat::<f64>::exact), &EFloat::exact(1.0)).value().abs();
-            let least = value(y + v * (1.0 / 1024.0)).min(value(y - v * (1.0 / 1024.0)));
-            if least > best.1 {
-                best = (v, least);
-            }
-        }
-        best.0
+        polynomial_surface::steepest(self, y)
     }
 }
 

@@ -56,7 +56,6 @@ pub mod ifs;
 pub mod implicit;
 pub mod julia;
 #[cfg(any(test, feature = "laws"))]
-#[doc(hidden)]
 pub mod laws;
 pub mod lemon;
 pub mod mesh;
@@ -86,6 +85,7 @@ pub mod terrain;
 pub mod textbook;
 pub mod torus;
 pub mod triangle;
+mod zero_set;
 
 pub use crate::accelerate::{Accelerate, PartId};
 pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
@@ -141,3 +141,4 @@ pub use crate::swift::{Crossings, meet_eight};
 pub use crate::terrain::{HeightField, HeightFieldError, Terrain, TerrainData, TerrainError};
 pub use crate::torus::{Axis, Torus, TorusError};
 pub use crate::triangle::{Triangle, TriangleError};
+pub use crate::zero_set::{Polynomial, ZeroSet, ZeroSetError};

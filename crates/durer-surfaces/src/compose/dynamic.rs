@@ -165,8 +165,15 @@ impl Algebraic for DynSurface {
     }
 }
 
+/// Whether both are the same surface in memory: the numbers within are not compared.
+impl PartialEq for DynSurface {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface)
+    }
+}
+
 impl core::fmt::Debug for DynSurface {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Erased").field("bounds", &self.bounds()).finish_non_exhaustive()
+        f.debug_struct("DynSurface").field("bounds", &self.bounds()).finish_non_exhaustive()
     }
 }

@@ -3,7 +3,8 @@
 //!
 //! To test a surface, give an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few
 //! [`Feature`]s at which rays are aimed, and call [`check_many`] once. Oracles are exact: they use
-//! big integers and share no code with the kernels.
+//! big integers and share no code with the kernels. A surface without one, such as that of a
+//! formula, is held to the laws that need none: [`check_alone`].
 
 pub mod exact;
 pub mod exact_polynomial;
@@ -71,6 +72,34 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
         let far = ray.at(root.t).to_vec().max_abs() > oracle.size() * durer_math::scale::ldexp(1.0, 450);
         if root.kind != RootKind::Cluster && !far {
             points_are_within_their_bounds(surface, oracle, ray, root)?;
+        }
+    }
+    Ok(roots)
+}
+
+/// Tests the laws that need no oracle: roots ascend and lie in their brackets and in the ray's
+/// range, all queries agree, points are well formed, and a ray that leaves a solid's surface starts
+/// on the requested side. Returns the roots.
+pub fn check_alone(surface: &dyn TestSurface, ray: &Ray) -> Result<Vec<Root>, Broken> {
+    let roots = all_roots(surface, ray);
+    for root in &roots {
+        ensure!(root.lo <= root.t && root.t <= root.hi, "t is not in its bracket: {root:?}");
+        ensure!(ray.t_min <= root.t && root.t <= ray.t_max, "a root is not in the range: {root:?}");
+    }
+    for pair in roots.windows(2) {
+        ensure!(pair[0].t <= pair[1].t, "roots do not ascend: {pair:?}");
+    }
+    closest_is_the_first_of_all(surface, ray, &roots)?;
+    for root in roots.iter().filter(|root| root.kind == RootKind::Simple) {
+        let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
+        is_well_formed(&point)?;
+        if surface.solidity() == Solidity::Open {
+            continue;
+        }
+        for (from, side) in [(RaySide::Front, Side::Out), (RaySide::Back, Side::In)] {
+            let start = point.spawn_from(from, ray.direction).origin;
+            let found = surface.side(&LocalPoint::new(start));
+            ensure!(found == side, "a ray from {from:?} starts {found:?}: {point:?}");
         }
     }
     Ok(roots)
