@@ -165,9 +165,9 @@ fn what_is_no_polynomial_of_the_degree_is_refused() {
 #[test]
 fn a_formula_and_a_polynomial_keep_the_laws_that_need_no_oracle() {
     let bump = Formula::of(|x, y, z| z - (-(x.square() + y.square())).exp()).unwrap();
-    let space = AxisBox::new(Point3::new(-2.0, -2.0, -1.0), Point3::new(2.0, 2.0, 2.0)).unwrap();
+    let space = AxisBox::new(Point3::new(-2.3, -1.9, -1.17), Point3::new(2.2, 1.83, 2.06)).unwrap();
     let bump = Isosurface::new(&bump, 0.0, Container::Box(space)).unwrap();
-    let tops = features(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.25], [2.0, 2.0, -1.0]], 1.0);
+    let tops = features(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.25], [1.5, 1.0, 0.0]], 1.0);
     let corners = features(&[[1.5, 1.5, 1.5], [1.0, 1.0, 1.0]], 1.0);
     let tangle = ZeroSet::new(tangle()).unwrap();
     let mut met = 0;
