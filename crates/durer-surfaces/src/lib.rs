@@ -26,6 +26,7 @@
 //! | where | what |
 //! |---|---|
 //! | `sphere`, `quadric/`, `torus`, `algebraic`, ... | one surface, one file or folder, with its equation on top |
+//! | `zero_set`, [`polynomial_surface`] | surfaces of an author's own polynomial, and their solver |
 //! | [`compose`] | placed, clipped and complemented surfaces |
 //! | `ray/`, `sink` | re-centred rays, and the queries as sinks of roots |
 //! | `roots/` | solvers of polynomial equations, up to exact arithmetic |

@@ -381,7 +381,7 @@ impl<const N: usize, P: Polynomial<N>> PolynomialSurface<N> for ZeroSet<P, N> {
         let near = y.to_array().map(|x| EFloat::with_error(x, 1.0 / 64.0));
         let (g, h) = self.derivatives(near);
         // The norm of all its numbers.
-        let size = h.map(|x| x.magnitude());
+        let size = h.map(EFloat::magnitude);
         let square = |i: usize| size[i] * size[i];
         let squares = square(0) + square(1) + square(2) + 2.0 * (square(3) + square(4) + square(5));
         (g, squares.sqrt() * (1.0 + 1.0 / 1024.0) + FLOOR)
@@ -389,7 +389,7 @@ impl<const N: usize, P: Polynomial<N>> PolynomialSurface<N> for ZeroSet<P, N> {
 
     fn turn(&self, y: Vec3, v: Vec3) -> Vec3 {
         let (_, h) = self.derivatives(y.to_array().map(EFloat::<f64>::exact));
-        let [xx, yy, zz, xy, xz, yz] = h.map(|x| x.value());
+        let [xx, yy, zz, xy, xz, yz] = h.map(EFloat::value);
         Vec3::new(
             xx * v.x + xy * v.y + xz * v.z,
             xy * v.x + yy * v.y + yz * v.z,

@@ -88,9 +88,10 @@ impl Oracle for Capsule {
         let each = |which: fn(&[Crossing]) -> Option<&Crossing>| {
             found.iter().zip(&polys).filter_map(move |(c, p)| Some((which(c)?, &p[..]))).collect::<Vec<_>>()
         };
-        let (Some(from), Some(to)) =
-            (first(&each(|c| c.first()), Ordering::Less), first(&each(|c| c.last()), Ordering::Greater))
-        else {
+        let (Some(from), Some(to)) = (
+            first(&each(<[Crossing]>::first), Ordering::Less),
+            first(&each(<[Crossing]>::last), Ordering::Greater),
+        ) else {
             return vec![];
         };
         if found.iter().all(|c| c.len() < 2) {

@@ -36,7 +36,7 @@ fn dot(a: &[EFloat; 3], b: &[EFloat; 3]) -> EFloat {
 
 #[inline(always)]
 fn rounded(a: &[EFloat; 3]) -> Vec3 {
-    Vec3::from(a.map(|x| x.value()))
+    Vec3::from(a.map(EFloat::value))
 }
 
 #[inline(always)]
