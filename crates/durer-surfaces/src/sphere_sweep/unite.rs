@@ -281,7 +281,6 @@ fn show<const K: usize, const M: usize>(
             let admitted = at.admits(lo, hi);
             if admitted == Some(false)
                 || admitted.is_none()
-                    && sign != 0
                     && is_beyond(sweep, basis, at, (pieces, spans), widths, (number, (lo, hi), sign))
             {
                 continue;
@@ -347,6 +346,10 @@ fn is_beyond<const K: usize, const M: usize>(
                 },
                 None => {}
             }
+        }
+        if sign == 0 {
+            // Nothing proves that a touch is beyond.
+            return false;
         }
         let is_out = match (end, at.spawned()) {
             (End::Min, Some((side, ..))) => side == RaySide::Front,
