@@ -8,7 +8,7 @@ use crate::{ObjectId, PrimitiveId, geometry};
 use core::any::TypeId;
 use durer_bvh::{Bvh, CornersOf, Entry, Frame, Settings};
 use durer_math::{Aabb, Affine, Isa};
-use durer_surfaces::Surface;
+use durer_surfaces::Accelerate;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -66,7 +66,7 @@ pub enum BuildError {
 
 impl Builder {
     /// Adds a surface as an object of its own, with the next free number.
-    pub fn add<S: Surface + 'static>(&mut self, surface: S) -> &mut Self {
+    pub fn add<S: Accelerate + 'static>(&mut self, surface: S) -> &mut Self {
         self.add_as(surface, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
     }
 
@@ -75,7 +75,7 @@ impl Builder {
     ///
     /// A ray with mask `m` can hit the surface if `m & mask != 0`. Two surfaces may have the same
     /// numbers.
-    pub fn add_as<S: Surface + 'static>(
+    pub fn add_as<S: Accelerate + 'static>(
         &mut self,
         surface: S,
         object: ObjectId,
@@ -195,7 +195,7 @@ impl Builder {
 
     /// Replaces the surfaces of type `S` for which `moved` returns another one, given the object,
     /// the primitive and the present surface.
-    pub(crate) fn replace<S: Surface + 'static>(
+    pub(crate) fn replace<S: Accelerate + 'static>(
         &mut self,
         mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) {

@@ -6,9 +6,10 @@ use crate::geometry::{Geometry, slots};
 use crate::ids::EVERYTHING;
 use crate::{Hit, ObjectId};
 use core::fmt;
+use core::ops::ControlFlow;
 use durer_bvh::{Leaf, Step};
 use durer_math::{Aabb, Ray};
-use durer_surfaces::{Flow, LocalRay};
+use durer_surfaces::LocalRay;
 
 /// The report of a ray: the same steps, in the same order, as [`Geometry::closest`] takes them.
 #[derive(Clone, Debug, PartialEq)]
@@ -221,10 +222,10 @@ impl Story {
         let filter = walk.filter(leaf.kind);
         for slot in slots(leaf) {
             let (mut roots, mut has_more) = (Vec::new(), false);
-            arena.each(geometry.isa, slot..slot + 1, walk.ray, &filter, &mut |slot, name, root| {
+            let _ = arena.each(geometry.isa, slot..slot + 1, walk.ray, &filter, &mut |slot, name, root| {
                 if roots.len() == MOST_CROSSINGS {
                     has_more = true;
-                    return Flow::Stop;
+                    return ControlFlow::Break(());
                 }
                 let hit = walk.placement.hit(leaf.kind, slot, name, &root);
                 let verdict = match &self.best {
@@ -236,7 +237,7 @@ impl Story {
                     }
                 };
                 roots.push((hit, verdict));
-                Flow::Continue
+                ControlFlow::Continue(())
             });
             let name = arena.name(slot);
             self.events.push(Event::Tested {

@@ -5,9 +5,10 @@ use crate::context::RayContext;
 use crate::geometry::{Geometry, slots};
 use crate::ids::EVERYTHING;
 use crate::{Hit, ObjectSpan, Span, spans::Tracks};
+use core::ops::ControlFlow;
 use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
-use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, SurfacePoint};
+use durer_surfaces::{LocalPoint, LocalRay, Need, SurfacePoint};
 
 impl Geometry {
     /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along
@@ -59,8 +60,9 @@ impl Geometry {
     /// A result that must not depend on the order (a product of rounded numbers) is better computed
     /// from [`Geometry::all_into`].
     pub fn any_where(&self, ray: &Ray, mask: u32, mut accept: impl FnMut(&Hit) -> bool) -> bool {
-        let visit = &mut |hit: &Hit| if accept(hit) { Flow::Stop } else { Flow::Continue };
-        self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow == Flow::Stop)
+        let visit =
+            &mut |hit: &Hit| if accept(hit) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow.is_break())
     }
 
     /// Every crossing, once, ascending in the order of [`Hit::order`].
@@ -81,7 +83,7 @@ impl Geometry {
         self.walk(ray, mask, |walk| {
             each(walk, &mut |hit| {
                 hits.push(*hit);
-                Flow::Continue
+                ControlFlow::Continue(())
             })
         });
         // Stable: two crossings of one surface may round to one t, and it reported them in their
@@ -272,24 +274,25 @@ pub(crate) fn any_in(walk: &RayContext<'_>, leaf: Leaf) -> bool {
 }
 
 /// Passes every hit to `visit`.
-pub(crate) fn each(walk: &RayContext<'_>, visit: &mut dyn FnMut(&Hit) -> Flow) -> Flow {
+pub(crate) fn each(walk: &RayContext<'_>, visit: &mut dyn FnMut(&Hit) -> ControlFlow<()>) -> ControlFlow<()> {
     let geometry = walk.geometry;
     let mut test = |leaf: Leaf| {
         if geometry.is_instances(&leaf) {
-            let stops =
-                |i: u32| walk.enter(geometry.instance(i), |inner| each(inner, visit)) == Some(Flow::Stop);
+            let stops = |i: u32| {
+                walk.enter(geometry.instance(i), |inner| each(inner, visit)) == Some(ControlFlow::Break(()))
+            };
             slots(&leaf).any(stops)
         } else {
             let arena = &geometry.arenas[leaf.kind as usize];
             let filter = walk.filter(leaf.kind);
             let placement = &walk.placement;
             let mut show = |slot, name, root| visit(&placement.hit(leaf.kind, slot, name, &root));
-            arena.each(geometry.isa, slots(&leaf), walk.ray, &filter, &mut show) == Flow::Stop
+            arena.each(geometry.isa, slots(&leaf), walk.ray, &filter, &mut show).is_break()
         }
     };
     let stopped = geometry.beside.iter().any(|b| test(b.leaf()))
         || geometry.tree.each(geometry.isa, &walk.line(), &mut test);
-    if stopped { Flow::Stop } else { Flow::Continue }
+    if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 fn spans(walk: &RayContext<'_>, start: &LocalPoint<'_>, tracks: &mut Tracks) {

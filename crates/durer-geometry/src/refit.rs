@@ -7,7 +7,7 @@ use crate::ids::Id;
 use crate::{BuildError, ObjectId, PrimitiveId};
 use durer_bvh::CornersOf;
 use durer_math::Aabb;
-use durer_surfaces::Surface;
+use durer_surfaces::Accelerate;
 use std::sync::OnceLock;
 
 /// Why a geometry cannot be refitted. It is then unchanged; a geometry that is built anew can hold
@@ -60,7 +60,7 @@ impl Geometry {
     /// # Errors
     ///
     /// If the tree cannot hold the new surfaces; see [`RefitError`].
-    pub fn refit<S: Surface + 'static>(
+    pub fn refit<S: Accelerate + 'static>(
         &mut self,
         mut moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) -> Result<(), RefitError> {
@@ -102,7 +102,7 @@ impl Geometry {
     /// # Errors
     ///
     /// If there are too many parts now.
-    pub fn rebuild<S: Surface + 'static>(
+    pub fn rebuild<S: Accelerate + 'static>(
         self,
         moved: impl FnMut(ObjectId, PrimitiveId, &S) -> Option<S>,
     ) -> Result<Self, BuildError> {

@@ -8,8 +8,8 @@ use durer_geometry::{Builder, Compound, CompoundBuilder, Geometry, Hit, Part, Se
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3, elementary};
 use durer_surfaces::{
-    AxisBox, CappedCylinder, DynSurface, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side, Sink,
-    Solidity, Sphere, Surface, SurfacePoint, Triangle,
+    Accelerate, AxisBox, CappedCylinder, DynSurface, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side,
+    Sink, Solidity, Sphere, Surface, SurfacePoint, Triangle,
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -359,6 +359,8 @@ impl Surface for Counted {
         self.0.side(point)
     }
 }
+
+impl Accelerate for Counted {}
 
 /// How many leaves of a CSG solid the rays test for their first hits. Also checks these hits
 /// against the lists of all hits.

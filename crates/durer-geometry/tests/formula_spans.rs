@@ -12,9 +12,9 @@ use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
 use durer_surfaces::implicit::level_set::primitives;
 use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
-    Algebraic, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Container, DynSurface,
-    Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet, LevelSet, Placed, RootKind, Side, Sphere, Surface,
-    Torus, Warp, superellipsoid,
+    Accelerate, Algebraic, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Container,
+    DynSurface, Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet, LevelSet, Placed, RootKind, Side,
+    Sphere, Torus, Warp, superellipsoid,
 };
 
 /// The radius of balls; `BALL` has points with integer coordinates on them.
@@ -118,7 +118,7 @@ struct Pair {
     touches: usize,
 }
 
-fn world<S: Surface + 'static>(surface: S) -> Geometry {
+fn world<S: Accelerate + 'static>(surface: S) -> Geometry {
     let mut builder = Geometry::builder();
     builder.add(surface);
     builder.build().unwrap()

@@ -3,7 +3,9 @@
 mod support;
 
 use durer_math::{Point3, Vec3};
-use durer_scene::{Cells, FillRule, Pattern, Pigment, PigmentBody, QuadricKind, Scene, Shape, TextureBody};
+use durer_scene::{
+    Cells, FillRule, Pattern, Pigment, PigmentBody, QuadricKind, Scene, Shape, SweepSpline, TextureBody,
+};
 use support::scene;
 
 /// The pigment of the top layer of object `index`.
@@ -374,6 +376,13 @@ fn a_map_is_three_functions_and_a_box() {
 fn a_cyclide_has_three_numbers() {
     let scene = scene("cyclide { 0.6, 0.2, 0.25 rotate x*90 }");
     assert_eq!(scene.objects[0].shape, Shape::Cyclide { a: 0.6, c: 0.2, d: 0.25 });
+}
+
+#[test]
+fn a_capsule_is_the_sweep_of_two_balls() {
+    let scene = scene("capsule { <0, 1, 2>, <3, 4, 5>, 0.5 }");
+    let balls = [[0.0, 1.0, 2.0, 0.5], [3.0, 4.0, 5.0, 0.5]];
+    assert_eq!(scene.objects[0].shape, Shape::SphereSweep(SweepSpline::Linear, balls.into()));
 }
 
 #[test]

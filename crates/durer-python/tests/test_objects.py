@@ -67,6 +67,7 @@ KINDS = [
     ),
     (durer.Sewn([durer.Nurbs([[(-2, -2, 1), (2, -2, 1)], [(-2, 2, 1), (2, 2, 1)]], (1, 1))]), 8),
     (durer.Ovus(1, 0.5), None),
+    (durer.Capsule((0, 0, -2), (0, 0, 0), 1), 9 - math.sqrt(1 - 0.05)),
     (durer.SphereSweep([(0, 0, -2, 1), (0, 0, 0, 1)]), 9 - math.sqrt(1 - 0.05)),
     (durer.SphereSweep([(0, 0, -2, 1), (0, 0, -1, 1), (0, 0, 0, 1), (0, 0, 1, 1)], "b"), None),
     (durer.Lemon((0, 0, -1), 0.1, (0, 0, 1), 0.3, 2), None),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
-use durer_surfaces::{StraightPath, StraightPathError};
+use durer_surfaces::{DynSurface, StraightPath, StraightPathError};
 
 use crate::tape::Formula;
 use crate::{
@@ -196,6 +196,8 @@ pub enum Shape {
     Terrain(Box<Terrain>),
     /// A solid, deformed. See [`Object::deformed`].
     Deform(Box<Deform>),
+    /// A surface that a program brings along. Two are equal if they are the same in memory.
+    Own(DynSurface),
     /// All the parts' surfaces together. Parts are placed in the union's own frame.
     Union(Vec<Object>),
     /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid

@@ -10,13 +10,12 @@
 
 use crate::packet::{FilterSource, PacketKernel, Terms};
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
+use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
-use crate::sphere::sphere_chart;
 use crate::{
-    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
+    Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
@@ -351,12 +350,7 @@ impl<const N: usize> PolynomialSurface<N> for Dense<N> {
 
     /// Longitude and latitude as seen from the origin.
     fn chart(&self, y: Vec3, n: Vec3) -> Chart {
-        if y == Vec3::ZERO {
-            let (dpdu, dpdv) = tangents(n);
-            return Chart { uv: [0.0; 2], dpdu, dpdv };
-        }
-        let Chart { uv, dpdu, dpdv } = sphere_chart(y);
-        Chart { uv, dpdu: sheared(dpdu, y, n), dpdv: sheared(dpdv, y, n) }
+        polynomial_surface::longitude_and_latitude(y, n)
     }
 
     fn tip(&self, y: Vec3) -> Vec3 {
@@ -380,29 +374,11 @@ impl<const N: usize> Dense<N> {
                 return g * (1.0 / g.length());
             }
         }
-        // Of the thirteen directions of a cube, the one along which the polynomial leaves zero
-        // most.
-        let mut best = (Vec3::Z, -1.0);
-        for code in 14..27 {
-            let axis = |p: u32| f64::from(code / p % 3) - 1.0;
-            let v = Vec3::new(axis(9), axis(3), axis(1));
-            let v = v * (1.0 / v.length());
-            let value =
-                |y: Vec3| self.at(&y.to_array().map(EFloat::<f64>::exact), &EFloat::exact(1.0)).value().abs();
-            let least = value(y + v * (1.0 / 1024.0)).min(value(y - v * (1.0 / 1024.0)));
-            if least > best.1 {
-                best = (v, least);
-            }
-        }
-        best.0
+        polynomial_surface::steepest(self, y)
     }
 }
 
 impl Surface for AlgebraicSurface {
-    fn name(&self) -> &'static str {
-        "algebraic surface"
-    }
-
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
     }
@@ -421,14 +397,6 @@ impl Surface for AlgebraicSurface {
         }
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        match &self.0 {
-            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
-            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
-            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
-        }
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
@@ -438,6 +406,20 @@ impl Surface for AlgebraicSurface {
             Fitting::Four(p) => polynomial_surface::side(p, point),
             Fitting::Eight(p) => polynomial_surface::side(p, point),
             Fitting::Sixteen(p) => polynomial_surface::side(p, point),
+        }
+    }
+}
+
+impl Accelerate for AlgebraicSurface {
+    fn name(&self) -> &'static str {
+        "algebraic surface"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        match &self.0 {
+            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
+            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
+            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
         }
     }
 }

@@ -12,7 +12,7 @@
 use crate::disc::RoundSheet;
 use crate::packet::FilterSource;
 use crate::planar::scaled_to_one;
-use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::{Aabb, Point3, Vec3};
 
@@ -89,10 +89,6 @@ impl Annulus {
 }
 
 impl Surface for Annulus {
-    fn name(&self) -> &'static str {
-        "annulus"
-    }
-
     fn bounds(&self) -> Aabb {
         self.sheet.bounds()
     }
@@ -106,17 +102,23 @@ impl Surface for Annulus {
             && self.sheet.beyond(&probe, &crossing, self.hole).is_none_or(Ordering::is_ge)
             && probe.admits(&self.sheet, &crossing)
         {
-            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+            let _ = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::ring(self.centre(), self.normal(), self.hole, self.radius())
     }
 
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         self.sheet.resolve(ray, need, self.hole)
+    }
+}
+
+impl Accelerate for Annulus {
+    fn name(&self) -> &'static str {
+        "annulus"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::ring(self.centre(), self.normal(), self.hole, self.radius())
     }
 }
 

@@ -16,8 +16,8 @@ use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, LocalPoint, LocalRay, Need, PartId, RingRay, Root, RootKind, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, CentredRay, LocalPoint, LocalRay, Need, PartId, RingRay, Root, RootKind, Side, Sink,
+    Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -353,16 +353,8 @@ fn later_climb(probe: &Probe<'_>, a: &Event, b: &Event) -> Ordering {
 }
 
 impl Surface for AxisBox {
-    fn name(&self) -> &'static str {
-        "box"
-    }
-
     fn bounds(&self) -> Aabb {
         Aabb::new(self.min, self.max)
-    }
-
-    fn inner_bounds(&self) -> Aabb {
-        self.bounds()
     }
 
     #[inline(always)]
@@ -403,7 +395,7 @@ impl Surface for AxisBox {
                 } else {
                     Root { sign, ..root }
                 };
-                if sink.push(root) == Flow::Stop {
+                if sink.push(root).is_break() {
                     return;
                 }
             }
@@ -445,10 +437,6 @@ impl Surface for AxisBox {
         point
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::axis_box(self.min, self.max)
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
@@ -466,6 +454,20 @@ impl Surface for AxisBox {
             }
         }
         if on { Side::On } else { Side::In }
+    }
+}
+
+impl Accelerate for AxisBox {
+    fn name(&self) -> &'static str {
+        "box"
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        self.bounds()
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::axis_box(self.min, self.max)
     }
 }
 

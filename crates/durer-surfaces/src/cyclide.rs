@@ -23,8 +23,8 @@ use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame, tangents};
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
+    Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -262,23 +262,8 @@ impl PolynomialSurface<5> for Cyclide {
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Surface for Cyclide {
-    fn name(&self) -> &'static str {
-        "cyclide"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds_through(&Affine::IDENTITY)
-    }
-
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        let centre = map.centre();
-        let (mut min, mut max) = (centre, centre);
-        for (axis, row) in map.linear().into_iter().enumerate() {
-            let c = Interval::from(centre[axis]);
-            max[axis] = (c + Interval::from(self.reach(row))).hi;
-            min[axis] = (c - Interval::from(self.reach(row.map(|x| -x)))).lo;
-        }
-        Aabb::new(min, max)
     }
 
     #[inline(always)]
@@ -294,16 +279,33 @@ impl Surface for Cyclide {
         polynomial_surface::resolve(self, ray, root, need)
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.bounds())
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         polynomial_surface::side(self, point)
+    }
+}
+
+impl Accelerate for Cyclide {
+    fn name(&self) -> &'static str {
+        "cyclide"
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        let centre = map.centre();
+        let (mut min, mut max) = (centre, centre);
+        for (axis, row) in map.linear().into_iter().enumerate() {
+            let c = Interval::from(centre[axis]);
+            max[axis] = (c + Interval::from(self.reach(row))).hi;
+            min[axis] = (c - Interval::from(self.reach(row.map(|x| -x)))).lo;
+        }
+        Aabb::new(min, max)
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds())
     }
 }
 

@@ -15,7 +15,7 @@ use crate::packet::FilterSource;
 use crate::planar::{
     self, AlongRay, Crossing, Line, PlaneForm, Probe, Quick, cross, dot, exact3, scaled_to_one, unit,
 };
-use crate::{CentredRay, Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, CentredRay, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
 use durer_math::eft::{exponent, scale2};
@@ -76,10 +76,6 @@ impl Disc {
 }
 
 impl Surface for Disc {
-    fn name(&self) -> &'static str {
-        "disc"
-    }
-
     fn bounds(&self) -> Aabb {
         self.sheet.bounds()
     }
@@ -92,17 +88,23 @@ impl Surface for Disc {
             && self.sheet.beyond(&probe, &crossing, self.sheet.radius).is_none_or(Ordering::is_le)
             && probe.admits(&self.sheet, &crossing)
         {
-            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+            let _ = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::ring(self.centre(), self.normal(), 0.0, self.radius())
     }
 
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
         self.sheet.resolve(ray, need, 0.0)
+    }
+}
+
+impl Accelerate for Disc {
+    fn name(&self) -> &'static str {
+        "disc"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::ring(self.centre(), self.normal(), 0.0, self.radius())
     }
 }
 

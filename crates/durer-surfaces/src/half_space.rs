@@ -153,7 +153,7 @@ fn adjugate(m: &[[Interval; 3]; 3]) -> ([[Interval; 3]; 3], Interval) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DynSurface, Placed, Surface};
+    use crate::{Accelerate, DynSurface, Placed};
 
     fn plane(x: f64, y: f64, z: f64, h: f64) -> HalfSpace {
         HalfSpace::behind(&Plane::new(Vec3::new(x, y, z), h).unwrap())

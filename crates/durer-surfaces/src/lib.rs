@@ -26,6 +26,7 @@
 //! | where | what |
 //! |---|---|
 //! | `sphere`, `quadric/`, `torus`, `algebraic`, ... | one surface, one file or folder, with its equation on top |
+//! | `zero_set`, [`polynomial_surface`] | surfaces of an author's own polynomial, and their solver |
 //! | [`compose`] | placed, clipped and complemented surfaces |
 //! | `ray/`, `sink` | re-centred rays, and the queries as sinks of roots |
 //! | `roots/` | solvers of polynomial equations, up to exact arithmetic |
@@ -39,6 +40,7 @@
 #[cfg(test)]
 extern crate self as durer_surfaces;
 
+mod accelerate;
 pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
@@ -55,7 +57,6 @@ pub mod ifs;
 pub mod implicit;
 pub mod julia;
 #[cfg(any(test, feature = "laws"))]
-#[doc(hidden)]
 pub mod laws;
 pub mod lemon;
 pub mod mesh;
@@ -85,7 +86,9 @@ pub mod terrain;
 pub mod textbook;
 pub mod torus;
 pub mod triangle;
+mod zero_set;
 
+pub use crate::accelerate::{Accelerate, PartId};
 pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
@@ -130,12 +133,13 @@ pub use crate::quadric::solid::QuadricSolid;
 pub use crate::ray::{CentredRay, End, LocalPoint, LocalRay, PREVIEW_WIDTH, RingRay, WideCache};
 pub use crate::revolution::SurfaceOfRevolution;
 pub use crate::revolution::lathe::{Lathe, LatheError, LatheSpline};
-pub use crate::sink::{All, Any, Closest, FirstCrossing, Flow, Forward, Sink};
+pub use crate::sink::{All, Any, Closest, FirstCrossing, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::sphere_sweep::{SphereSweep, SphereSweepError, SweepSpline};
-pub use crate::surface::{Need, PartId, Root, RootKind, Side, Solidity, Surface};
+pub use crate::surface::{Need, Root, RootKind, Side, Solidity, Surface};
 pub use crate::swift::{Crossings, meet_eight};
 pub use crate::terrain::{HeightField, HeightFieldError, Terrain, TerrainData, TerrainError};
 pub use crate::torus::{Axis, Torus, TorusError};
 pub use crate::triangle::{Triangle, TriangleError};
+pub use crate::zero_set::{Polynomial, ZeroSet, ZeroSetError};

@@ -19,7 +19,8 @@ use crate::packet::FilterSource;
 use crate::planar::{self, Crossing, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::swift::{self, Swift};
 use crate::{
-    Flow, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
@@ -365,17 +366,13 @@ impl Sorted {
 #[inline(always)]
 fn show<S: Sink + ?Sized>(roots: &[Root], sink: &mut S) {
     for root in roots {
-        if sink.push(*root) == Flow::Stop {
+        if sink.push(*root).is_break() {
             return;
         }
     }
 }
 
 impl Surface for Mesh {
-    fn name(&self) -> &'static str {
-        "mesh"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -405,15 +402,6 @@ impl Surface for Mesh {
             return facet::resolve_at(root.tag, &facet, &varying, need);
         }
         facet::resolve(&Self::probe(ray, &facet), &facet, &varying, need)
-    }
-
-    fn packet_filter(&self, part: PartId) -> FilterSource {
-        let vertices = self.facet(part.0);
-        let flat = FilterSource::flat(vertices).on_face(part.0);
-        match self.corner_normals(part.0) {
-            Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
-            None => flat,
-        }
     }
 
     fn solidity(&self) -> Solidity {
@@ -447,6 +435,21 @@ impl Surface for Mesh {
         }
         if odd { Side::In } else { Side::Out }
     }
+}
+
+impl Accelerate for Mesh {
+    fn name(&self) -> &'static str {
+        "mesh"
+    }
+
+    fn packet_filter(&self, part: PartId) -> FilterSource {
+        let vertices = self.facet(part.0);
+        let flat = FilterSource::flat(vertices).on_face(part.0);
+        match self.corner_normals(part.0) {
+            Some(normals) => flat.with_normals(vertices, normals.map(Normal3::to_vec)),
+            None => flat,
+        }
+    }
 
     #[inline(always)]
     fn is_in_parts(&self) -> bool {
@@ -471,7 +474,7 @@ impl Surface for Mesh {
     #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
         if let Some(root) = self.face_root(part.0, ray, sink.range()) {
-            let _: Flow = sink.push(root);
+            let _ = sink.push(root);
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::edges::EdgeFilter;
 use crate::facet;
 use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, Ratios, cross, dot, seen_from};
-use crate::{CentredRay, Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, CentredRay, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::scale2;
 use durer_math::{Aabb, EFloat, Point3, Ring, U, Vec3};
@@ -207,10 +207,6 @@ fn between(probe: &Probe<'_>, spanned: &Spanned<'_>, which: usize, slope: i8) ->
 }
 
 impl Surface for Parallelogram {
-    fn name(&self) -> &'static str {
-        "parallelogram"
-    }
-
     fn bounds(&self) -> Aabb {
         // One coordinate at a time: the corner plus the negative, or the positive, parts of the
         // edges.
@@ -233,12 +229,8 @@ impl Surface for Parallelogram {
         let inside = certain || (0..2).all(|which| between(&probe, &spanned, which, crossing.sign));
         if inside && probe.admits(&spanned, &crossing) {
             let tag = tag.unwrap_or_else(|| planar::ratios(&probe, &spanned)).map(|x| x.v.clamp(0.0, 1.0));
-            let _: Flow = sink.push(probe.root(&crossing, 0, tag));
+            let _ = sink.push(probe.root(&crossing, 0, tag));
         }
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::parallelogram(self.corner, self.u, self.v)
     }
 
     #[inline(always)]
@@ -258,6 +250,16 @@ impl Surface for Parallelogram {
             (point.dpdu, point.dpdv) = (self.u, self.v);
         }
         point
+    }
+}
+
+impl Accelerate for Parallelogram {
+    fn name(&self) -> &'static str {
+        "parallelogram"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::parallelogram(self.corner, self.u, self.v)
     }
 }
 

@@ -15,8 +15,8 @@ use crate::packet::FilterSource;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
 use crate::point::least_step;
 use crate::{
-    CentredRay, Flow, HalfSpace, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, CentredRay, HalfSpace, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink,
+    Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Normal3, Point3, RaySide, Ring, Shaft, U, Vec3};
@@ -203,52 +203,8 @@ impl PlaneForm for Seen<'_> {
 }
 
 impl Surface for Plane {
-    fn name(&self) -> &'static str {
-        "plane"
-    }
-
     fn bounds(&self) -> Aabb {
         Aabb::UNBOUNDED
-    }
-
-    fn inner_bounds(&self) -> Aabb {
-        let mut inner = Aabb::UNBOUNDED;
-        let n = self.normal;
-        let mut entries = (0..3).filter(|&axis| n[axis] != 0.0);
-        let (Some(axis), None) = (entries.next(), entries.next()) else { return Aabb::EMPTY };
-        if n[axis] > 0.0 {
-            inner.max[axis] = self.distance;
-        } else {
-            inner.min[axis] = -self.distance;
-        }
-        inner
-    }
-
-    fn half_space(&self) -> Option<HalfSpace> {
-        Some(HalfSpace::behind(self))
-    }
-
-    fn misses(&self, shaft: &Shaft) -> bool {
-        let offset = self.offset;
-        !shaft.may_cross(self.normal, offset.v.hi, offset.v.lo.abs() + offset.e)
-    }
-
-    /// A half-space is convex: a segment that starts and ends in it stays in it.
-    fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
-        let (n, end) = (self.normal, shaft.end());
-        let (mut least, mut most, mut size) = (0.0, 0.0, self.offset.v.hi.abs());
-        for i in 0..3 {
-            let (a, b) = (n[i] * end.min[i], n[i] * end.max[i]);
-            least += a.min(b);
-            most += a.max(b);
-            size += a.abs().max(b.abs());
-        }
-        // Three products, three sums, the offset's low part.
-        let err = size * (8.0 * U) + self.offset.e + planar::TINY;
-        match side {
-            RaySide::Front => least - self.offset.v.hi > err,
-            RaySide::Back => most - self.offset.v.hi < -err,
-        }
     }
 
     #[inline(always)]
@@ -263,7 +219,7 @@ impl Surface for Plane {
         if let Some(crossing) = probe.crossing_within(&seen, sink.range())
             && probe.admits(&seen, &crossing)
         {
-            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+            let _ = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
     }
 
@@ -307,10 +263,6 @@ impl Surface for Plane {
         point
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::half_space(Point3::ORIGIN, self.normal, self.offset)
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
@@ -319,6 +271,56 @@ impl Surface for Plane {
         let centre = self.foot();
         let seen = Seen { plane: self, centre };
         planar::below_is_in(PointLine::new(point, Vec3::ZERO, centre, 0).side_of(&seen))
+    }
+}
+
+impl Accelerate for Plane {
+    fn name(&self) -> &'static str {
+        "plane"
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        let mut inner = Aabb::UNBOUNDED;
+        let n = self.normal;
+        let mut entries = (0..3).filter(|&axis| n[axis] != 0.0);
+        let (Some(axis), None) = (entries.next(), entries.next()) else { return Aabb::EMPTY };
+        if n[axis] > 0.0 {
+            inner.max[axis] = self.distance;
+        } else {
+            inner.min[axis] = -self.distance;
+        }
+        inner
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(HalfSpace::behind(self))
+    }
+
+    fn misses(&self, shaft: &Shaft) -> bool {
+        let offset = self.offset;
+        !shaft.may_cross(self.normal, offset.v.hi, offset.v.lo.abs() + offset.e)
+    }
+
+    /// A half-space is convex: a segment that starts and ends in it stays in it.
+    fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
+        let (n, end) = (self.normal, shaft.end());
+        let (mut least, mut most, mut size) = (0.0, 0.0, self.offset.v.hi.abs());
+        for i in 0..3 {
+            let (a, b) = (n[i] * end.min[i], n[i] * end.max[i]);
+            least += a.min(b);
+            most += a.max(b);
+            size += a.abs().max(b.abs());
+        }
+        // Three products, three sums, the offset's low part.
+        let err = size * (8.0 * U) + self.offset.e + planar::TINY;
+        match side {
+            RaySide::Front => least - self.offset.v.hi > err,
+            RaySide::Back => most - self.offset.v.hi < -err,
+        }
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::half_space(Point3::ORIGIN, self.normal, self.offset)
     }
 }
 

@@ -25,7 +25,7 @@ use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
 use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, ThreePoints};
-use crate::{Flow, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Point3, Ring, Vec3};
@@ -341,10 +341,6 @@ impl<'a, L: Line> Winding<'a, L> {
 }
 
 impl Surface for Polygon {
-    fn name(&self) -> &'static str {
-        "polygon"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -358,12 +354,8 @@ impl Surface for Polygon {
             && (self.margin.is_none() || within(&probe, &plane, crossing.sign, &self.bounds))
             && probe.admits(&plane, &crossing)
         {
-            let _: Flow = sink.push(probe.root(&crossing, 0, [0.0; 2]));
+            let _ = sink.push(probe.root(&crossing, 0, [0.0; 2]));
         }
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
     }
 
     /// Texture coordinates are lengths along two axes across the normal, from the first vertex.
@@ -385,6 +377,16 @@ impl Surface for Polygon {
             (point.dpdu, point.dpdv) = (a, b);
         }
         point
+    }
+}
+
+impl Accelerate for Polygon {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
     }
 }
 

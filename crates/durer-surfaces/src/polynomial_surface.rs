@@ -4,16 +4,16 @@
 //! Along a ray the polynomial has one unknown (`roots`). The inside is where it is negative.
 
 use crate::point::least_step;
-use crate::quadric::boolean_faces::{Chart, Frame};
+use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
 use crate::ray::PREVIEW_WIDTH;
 use crate::roots::exact::ExactRoots;
 use crate::roots::polynomial::{Along, Found, Stretch, solve, stays};
 use crate::roots::quadratic::{Limits, NARROW, Quadratic};
-use crate::{
-    CentredRay, End, Flow, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint,
-};
+use crate::sphere::sphere_chart;
+use crate::{CentredRay, End, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
@@ -136,11 +136,7 @@ impl<const N: usize, Z: PolynomialSurface<N>> Along<N> for RayPolynomial<'_, Z> 
 }
 
 /// All crossings in the ray's range, ascending.
-pub(crate) fn roots<const N: usize, Z: PolynomialSurface<N>>(
-    shape: &Z,
-    ray: &LocalRay<'_>,
-    sink: &mut dyn Sink,
-) {
+pub fn roots<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
     Isa::detect().run(
         #[inline(always)]
         || roots_here(shape, ray, sink),
@@ -183,7 +179,7 @@ struct Showing<'a, Z> {
 
 impl<Z> Showing<'_, Z> {
     #[inline(never)]
-    fn show<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    fn show<const N: usize>(&mut self, found: &Found<'_>) -> ControlFlow<()>
     where
         Z: PolynomialSurface<N>,
     {
@@ -194,7 +190,7 @@ impl<Z> Showing<'_, Z> {
     }
 
     #[inline(always)]
-    fn show_here<const N: usize>(&mut self, found: &Found<'_>) -> Flow
+    fn show_here<const N: usize>(&mut self, found: &Found<'_>) -> ControlFlow<()>
     where
         Z: PolynomialSurface<N>,
     {
@@ -202,13 +198,13 @@ impl<Z> Showing<'_, Z> {
         let (lo, hi) = at.bracket(outward(found.lo, -1.0), outward(found.hi, 1.0));
         let (near, far) = self.sink.range();
         if lo > far.min(ray.t_max) {
-            return Flow::Stop;
+            return ControlFlow::Break(());
         }
         if hi < near.max(ray.t_min) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         if at.admits(lo, hi) != Some(true) && !in_range(shape, found, at, mid) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let t = at.t(found.s).max(lo).min(hi).max(ray.t_min).min(ray.t_max).max(self.least);
         self.least = t;
@@ -241,7 +237,7 @@ fn shorter((mid, half): (f64, f64), (lo, hi): (f64, f64)) -> (f64, f64) {
 /// `low <= o + s d <= high` of one coordinate along it. Both must exceed their contents by at least
 /// `margin`, which covers every rounding; the result is no shorter than its square.
 #[inline(always)]
-pub(crate) fn ball_and_slab(
+pub fn ball_and_slab(
     ray: &CentredRay<'_>,
     reach: f64,
     (o, d): (f64, f64),
@@ -397,7 +393,7 @@ fn exact_end_against_root<const N: usize, Z: PolynomialSurface<N>>(
 }
 
 /// The side of the surface on which a point lies.
-pub(crate) fn side<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, point: &LocalPoint<'_>) -> Side {
+pub fn side<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, point: &LocalPoint<'_>) -> Side {
     let Frame { centre, scale, .. } = shape.frame();
     let (p, e) = point.relative_to(centre, scale);
     let sign = Isa::detect().run(
@@ -418,7 +414,7 @@ pub(crate) fn side<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, point: &L
 }
 
 /// The point of a root: projected onto the surface by Newton's method, with its bounds.
-pub(crate) fn resolve<const N: usize, Z: PolynomialSurface<N>>(
+pub fn resolve<const N: usize, Z: PolynomialSurface<N>>(
     shape: &Z,
     ray: &LocalRay<'_>,
     root: &Root,
@@ -557,7 +553,7 @@ fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e
 
 /// The exact sign of a quadratic in the ray's own parameter at a root of the surface, for clipping;
 /// `None` if the ray is not exactly known.
-pub(crate) fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
+pub fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
     shape: &Z,
     ray: &LocalRay<'_>,
     root: &Root,
@@ -577,4 +573,33 @@ pub(crate) fn sign_at_root<const N: usize, Z: PolynomialSurface<N>>(
     };
     let found = roots.iter().find(|r| goes(r.before, r.after) == root.sign).or(roots.first())?;
     Some(exact.sign_at_root(&[q.c.clone(), q.b.clone().scale2(1), q.a.clone()], found))
+}
+
+/// Surface coordinates for a surface without any of its own: longitude and latitude as seen from
+/// the frame's centre.
+pub fn longitude_and_latitude(y: Vec3, n: Vec3) -> Chart {
+    if y == Vec3::ZERO {
+        let (dpdu, dpdv) = tangents(n);
+        return Chart { uv: [0.0; 2], dpdu, dpdv };
+    }
+    let Chart { uv, dpdu, dpdv } = sphere_chart(y);
+    Chart { uv, dpdu: sheared(dpdu, y, n), dpdv: sheared(dpdv, y, n) }
+}
+
+/// Of the thirteen directions of a cube, the one along which the polynomial leaves zero most.
+#[inline(always)]
+pub fn steepest<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3) -> Vec3 {
+    let mut best = (Vec3::Z, -1.0);
+    for code in 14..27 {
+        let axis = |p: u32| f64::from(code / p % 3) - 1.0;
+        let v = Vec3::new(axis(9), axis(3), axis(1));
+        let v = v * (1.0 / v.length());
+        let value =
+            |y: Vec3| shape.at(&y.to_array().map(EFloat::<f64>::exact), &EFloat::exact(1.0)).value().abs();
+        let least = value(y + v * (1.0 / 1024.0)).min(value(y - v * (1.0 / 1024.0)));
+        if least > best.1 {
+            best = (v, least);
+        }
+    }
+    best.0
 }

@@ -1,15 +1,7 @@
 //! Receivers of roots: closest, any, all.
 
 use crate::Root;
-
-/// Whether a producer of roots should continue.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow {
-    /// More roots are wanted.
-    Continue,
-    /// Nothing more is needed.
-    Stop,
-}
+use core::ops::ControlFlow;
 
 /// A receiver of roots.
 pub trait Sink {
@@ -23,8 +15,8 @@ pub trait Sink {
         f64::INFINITY
     }
 
-    /// Takes a root.
-    fn push(&mut self, root: Root) -> Flow;
+    /// Takes a root, and says whether more are wanted.
+    fn push(&mut self, root: Root) -> ControlFlow<()>;
 }
 
 /// Passes everything on to a sink of any type. Since its own type is sized, it can become a
@@ -41,7 +33,7 @@ impl<K: Sink + ?Sized> Sink for Forward<'_, K> {
         self.0.limit()
     }
 
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         self.0.push(root)
     }
 }
@@ -65,11 +57,11 @@ impl Sink for Closest {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         if self.root.is_none_or(|best| root.t < best.t) {
             self.root = Some(root);
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }
 
@@ -87,9 +79,9 @@ impl Sink for Any {
     }
 
     #[inline(always)]
-    fn push(&mut self, _: Root) -> Flow {
+    fn push(&mut self, _: Root) -> ControlFlow<()> {
         self.hit = true;
-        Flow::Stop
+        ControlFlow::Break(())
     }
 }
 
@@ -107,9 +99,9 @@ impl Sink for All {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         self.roots.push(root);
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }
 
@@ -136,15 +128,15 @@ impl Sink for FirstCrossing {
         (0.0, f64::INFINITY)
     }
 
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         if root.sign == 0 {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         if root.lo <= 0.0 {
             self.at_start = Some(root.sign);
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         self.ahead = Some(root.sign);
-        Flow::Stop
+        ControlFlow::Break(())
     }
 }

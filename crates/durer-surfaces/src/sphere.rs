@@ -15,8 +15,10 @@ use crate::quadric::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Flow, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Aabb, Affine, EFloat, Point3, RaySide, Ring, U, Vec3, elementary};
 
@@ -151,7 +153,7 @@ impl Sphere {
             let t = at.t(s).max(t_lo).min(t_hi);
             let root =
                 Root { t, lo: t_lo, hi: t_hi, s, tag: [0.0; 2], face: 0, sign, kind: RootKind::Simple };
-            if sink.push(root) == Flow::Stop {
+            if sink.push(root).is_break() {
                 break;
             }
         }
@@ -291,8 +293,8 @@ impl<K: Sink + ?Sized> Sink for Leaving<'_, K> {
         self.0.range()
     }
 
-    fn push(&mut self, root: Root) -> Flow {
-        if root.sign > 0 { self.0.push(root) } else { Flow::Continue }
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
+        if root.sign > 0 { self.0.push(root) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -305,10 +307,6 @@ pub(crate) fn length(v: [f64; 3]) -> f64 {
 }
 
 impl Surface for Sphere {
-    fn name(&self) -> &'static str {
-        "sphere"
-    }
-
     fn bounds(&self) -> Aabb {
         QuadricFaces::bounds(self)
     }
@@ -325,20 +323,9 @@ impl Surface for Sphere {
         }
     }
 
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        // The image is an ellipsoid: its half-widths are r times the lengths of L's rows.
-        let centre = map.bounds(&Aabb::new(self.centre, self.centre));
-        let rows = Vec3::from(map.linear().map(length));
-        centre.expanded(rows * (self.radius * (1.0 + 16.0 * U)))
-    }
-
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.quick_point(ray, root, need).unwrap_or_else(|| self.with_view(|v| v.resolve(ray, root, need)))
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::of_shape(self)
     }
 
     fn solidity(&self) -> Solidity {
@@ -347,6 +334,23 @@ impl Surface for Sphere {
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         self.with_view(|v| v.side(point))
+    }
+}
+
+impl Accelerate for Sphere {
+    fn name(&self) -> &'static str {
+        "sphere"
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        // The image is an ellipsoid: its half-widths are r times the lengths of L's rows.
+        let centre = map.bounds(&Aabb::new(self.centre, self.centre));
+        let rows = Vec3::from(map.linear().map(length));
+        centre.expanded(rows * (self.radius * (1.0 + 16.0 * U)))
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::of_shape(self)
     }
 }
 

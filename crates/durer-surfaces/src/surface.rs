@@ -1,50 +1,18 @@
 //! The trait that every surface implements, and the types of its answers.
 
-use crate::packet::FilterSource;
-use crate::{HalfSpace, LocalPoint, LocalRay, Sink, SurfacePoint};
+use crate::{LocalPoint, LocalRay, Sink, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
+use durer_math::Aabb;
 
 /// A surface in its own frame. It answers one question: *where does this ray meet you?*
 ///
 /// The closest hit, any hit, all hits and spans are [`Sink`]s over the one method
-/// [`roots`](Surface::roots), so they cannot disagree.
+/// [`roots`](Surface::roots), so they cannot disagree. What makes a surface faster in a tree, and
+/// is not needed for its answers, is in [`Accelerate`](crate::Accelerate).
 pub trait Surface: Send + Sync {
-    /// What the surface is called in explanations and statistics, in the singular.
-    fn name(&self) -> &'static str {
-        "surface"
-    }
-
     /// A box that provably holds the surface and, for a solid, its inside; [`Aabb::UNBOUNDED`] if
     /// none does.
     fn bounds(&self) -> Aabb;
-
-    /// A box that provably holds the surface after `map` has moved it. The default is the box of
-    /// the moved box; a surface with a tighter one returns that.
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        map.bounds(&self.bounds())
-    }
-
-    /// A box that the solid provably holds, possibly unbounded; empty if none is known.
-    fn inner_bounds(&self) -> Aabb {
-        Aabb::EMPTY
-    }
-
-    /// The solid as a half-space, if it is one.
-    fn half_space(&self) -> Option<HalfSpace> {
-        None
-    }
-
-    /// Whether no ray of a bundle meets the surface. `true` is certain, `false` is not.
-    fn misses(&self, shaft: &Shaft) -> bool {
-        !shaft.may_meet(&self.bounds())
-    }
-
-    /// Whether no ray of a bundle that starts strictly on `side` of the surface meets it again.
-    /// `true` is certain, `false` is not.
-    fn is_left(&self, _side: RaySide, _shaft: &Shaft) -> bool {
-        false
-    }
 
     /// Pushes every crossing in the ray's closed range, once, ascending. Each pushed bracket holds
     /// a crossing of the exact surface with the exact ray.
@@ -68,62 +36,7 @@ pub trait Surface: Send + Sync {
     fn side(&self, _point: &LocalPoint<'_>) -> Side {
         Side::Out
     }
-
-    /// Whether the surface may have more than one part.
-    #[inline(always)]
-    fn is_in_parts(&self) -> bool {
-        false
-    }
-
-    /// Calls `f` for each part that a tree may hold by itself, with a box that provably holds the
-    /// part.
-    fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
-        f(self.bounds(), PartId(0));
-    }
-
-    /// The offset from a surface's number to the primitive number of one of its parts. Faces of a
-    /// mesh are primitives of their own; walls of a prism are not.
-    #[inline(always)]
-    fn primitive_of(&self, _part: PartId) -> u32 {
-        0
-    }
-
-    /// The corners of a part, if it is a flat, uncut triangle whose edges follow the edge rule of
-    /// meshes. Either all parts of all surfaces of a type have corners, or none has.
-    fn corners(&self, _part: PartId) -> Option<[Point3; 3]> {
-        None
-    }
-
-    /// The packet filter of one part. The default knows only the bounds, so every ray that may hit
-    /// the box falls back to [`part_roots`](Surface::part_roots).
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.bounds())
-    }
-
-    /// The packet filter of a whole solid, for CSG, and the part on which each of the filter's
-    /// faces lies.
-    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
-        let part = PartId(0);
-        (
-            if self.is_in_parts() { FilterSource::vague(self.bounds()) } else { self.packet_filter(part) },
-            vec![part],
-        )
-    }
-
-    /// Pushes the crossings of one part. The union over all parts is what [`roots`](Surface::roots)
-    /// pushes.
-    #[inline(always)]
-    fn part_roots<S: Sink + ?Sized>(&self, _part: PartId, ray: &LocalRay<'_>, sink: &mut S)
-    where
-        Self: Sized,
-    {
-        self.roots(ray, sink);
-    }
 }
-
-/// The number of a part of a surface: a face of a mesh, a wall of a prism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PartId(pub u32);
 
 /// One crossing of a ray and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,8 +20,8 @@ use crate::quadric::form::FLOOR;
 use crate::roots::quadratic::Quadratic;
 use crate::sphere::length;
 use crate::{
-    Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
+    Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -286,28 +286,11 @@ impl PolynomialSurface<5> for Torus {
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Surface for Torus {
-    fn name(&self) -> &'static str {
-        "torus"
-    }
-
     fn bounds(&self) -> Aabb {
         let far = (self.major + self.minor).next_up();
         let mut half = [far; 3];
         half[self.index()] = self.minor;
         Aabb::centred(self.centre, half.into())
-    }
-
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        // The sum of the images of a circle and a ball: the half-widths of the ellipsoid are r
-        // times the lengths of L's rows, those of the ellipse R times the lengths of the rows'
-        // parts across the axis.
-        let centre = map.bounds(&Aabb::new(self.centre, self.centre));
-        let half = map.linear().map(|row| {
-            let mut flat = row;
-            flat[self.index()] = 0.0;
-            self.major * length(flat) + self.minor * length(row)
-        });
-        centre.expanded(Vec3::from(half) * (1.0 + 16.0 * U))
     }
 
     #[inline(always)]
@@ -321,6 +304,33 @@ impl Surface for Torus {
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         polynomial_surface::resolve(self, ray, root, need)
+    }
+
+    fn solidity(&self) -> Solidity {
+        Solidity::Solid
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        polynomial_surface::side(self, point)
+    }
+}
+
+impl Accelerate for Torus {
+    fn name(&self) -> &'static str {
+        "torus"
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        // The sum of the images of a circle and a ball: the half-widths of the ellipsoid are r
+        // times the lengths of L's rows, those of the ellipse R times the lengths of the rows'
+        // parts across the axis.
+        let centre = map.bounds(&Aabb::new(self.centre, self.centre));
+        let half = map.linear().map(|row| {
+            let mut flat = row;
+            flat[self.index()] = 0.0;
+            self.major * length(flat) + self.minor * length(row)
+        });
+        centre.expanded(Vec3::from(half) * (1.0 + 16.0 * U))
     }
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
@@ -339,14 +349,6 @@ impl Surface for Torus {
         };
         let (i, lathe) = (self.index(), RevolutionKernel::new(&[wall], false));
         FilterSource::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
-    }
-
-    fn solidity(&self) -> Solidity {
-        Solidity::Solid
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        polynomial_surface::side(self, point)
     }
 }
 

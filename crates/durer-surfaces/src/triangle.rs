@@ -14,7 +14,7 @@ use crate::facet::{self, Facet, Varying};
 use crate::packet::FilterSource;
 use crate::planar::{self, Probe};
 use crate::swift::{self, Swift};
-use crate::{Flow, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use durer_math::{Aabb, Normal3, Point3};
 
 /// A triangle, by its vertices. A root's tag is `(b1, b2)`.
@@ -101,12 +101,41 @@ impl Triangle {
 }
 
 impl Surface for Triangle {
-    fn name(&self) -> &'static str {
-        "triangle"
-    }
-
     fn bounds(&self) -> Aabb {
         Aabb::from_points(self.vertices)
+    }
+
+    #[inline(always)]
+    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
+        match swift::meet(ray, &self.vertices, 0, sink.range()) {
+            Swift::Missed => return,
+            Swift::Met(root) => {
+                let _ = sink.push(root);
+                return;
+            }
+            Swift::Open => {}
+        }
+        let probe = self.probe(ray);
+        if let Some((crossing, tag)) = facet::hit(&probe, &EdgeFilter::new(&probe), &self.vertices)
+            && !probe.leaves(&crossing)
+            && !crossing.is_outside(sink.range())
+            && probe.may_admit(&crossing)
+            && probe.admits(&facet::plane(&probe, &self.vertices), &crossing)
+        {
+            let _ = sink.push(probe.root(&crossing, 0, tag));
+        }
+    }
+
+    #[inline(always)]
+    fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
+        let varying = Varying { normals: self.normals(), uv: self.uv.as_deref().copied() };
+        facet::resolve(&self.probe(ray), &self.vertices, &varying, need)
+    }
+}
+
+impl Accelerate for Triangle {
+    fn name(&self) -> &'static str {
+        "triangle"
     }
 
     fn corners(&self, _part: PartId) -> Option<[Point3; 3]> {
@@ -119,33 +148,6 @@ impl Surface for Triangle {
             Some(normals) => flat.with_normals(self.vertices, normals.map(Normal3::to_vec)),
             None => flat,
         }
-    }
-
-    #[inline(always)]
-    fn roots<S: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut S) {
-        match swift::meet(ray, &self.vertices, 0, sink.range()) {
-            Swift::Missed => return,
-            Swift::Met(root) => {
-                let _: Flow = sink.push(root);
-                return;
-            }
-            Swift::Open => {}
-        }
-        let probe = self.probe(ray);
-        if let Some((crossing, tag)) = facet::hit(&probe, &EdgeFilter::new(&probe), &self.vertices)
-            && !probe.leaves(&crossing)
-            && !crossing.is_outside(sink.range())
-            && probe.may_admit(&crossing)
-            && probe.admits(&facet::plane(&probe, &self.vertices), &crossing)
-        {
-            let _: Flow = sink.push(probe.root(&crossing, 0, tag));
-        }
-    }
-
-    #[inline(always)]
-    fn resolve(&self, ray: &LocalRay<'_>, _root: &Root, need: Need) -> SurfacePoint {
-        let varying = Varying { normals: self.normals(), uv: self.uv.as_deref().copied() };
-        facet::resolve(&self.probe(ray), &self.vertices, &varying, need)
     }
 }
 

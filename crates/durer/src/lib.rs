@@ -58,6 +58,11 @@ pub use durer_render as render;
 pub use durer_scene as scene;
 pub use durer_surfaces as surfaces;
 
+/// The examples of the page about a surface of your own, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/own_surface.md")]
+struct OwnSurface;
+
 /// The examples of the README, run as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]

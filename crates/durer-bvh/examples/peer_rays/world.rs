@@ -5,7 +5,7 @@ use durer_bvh::{Bvh, Frame, Leaf, Packet32, Ray32, Ray64, Rays, Settings, TreeRa
 use durer_math::eft::{exponent, scale2};
 use durer_math::lanes::F8;
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
-use durer_surfaces::{Closest, LocalRay, MeshData, PartId, Surface, Triangle, meet_eight};
+use durer_surfaces::{Accelerate, Closest, LocalRay, MeshData, PartId, Surface, Triangle, meet_eight};
 use rayon::prelude::*;
 
 /// The build settings of a name.

@@ -4,7 +4,7 @@
 use super::{AnyArena, Arena, PartRef};
 use durer_bvh::{Entry, Frame};
 use durer_math::{Aabb, Point3};
-use durer_surfaces::{PartId, Surface};
+use durer_surfaces::{Accelerate, PartId};
 use rayon::prelude::*;
 
 /// The builder's view of an arena.
@@ -73,7 +73,7 @@ impl Unsorted {
     }
 }
 
-impl<S: Surface> Arena<S> {
+impl<S: Accelerate> Arena<S> {
     fn slot_boxes(&self, limits: &[Aabb]) -> impl IndexedParallelIterator<Item = Aabb> {
         let count = self.parts.as_ref().map_or(self.surfaces.len(), Vec::len);
         (0..count).into_par_iter().map(|i| {
@@ -89,11 +89,11 @@ impl<S: Surface> Arena<S> {
     }
 }
 
-impl<S: Surface + 'static> Arrange for Arena<S> {
+impl<S: Accelerate + 'static> Arrange for Arena<S> {
     fn seal(&mut self) {
         self.surfaces.shrink_to_fit();
         self.ids.shrink();
-        if !self.surfaces.iter().any(Surface::is_in_parts) {
+        if !self.surfaces.iter().any(Accelerate::is_in_parts) {
             return;
         }
         let mut parts = Vec::new();

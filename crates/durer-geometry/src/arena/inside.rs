@@ -1,10 +1,11 @@
 //! Decides on which side of a solid a ray starts.
 
 use super::ALL;
+use core::ops::ControlFlow;
 use durer_math::RaySide;
 use durer_math::eft::{exponent, scale2};
 use durer_math::scale::pow2;
-use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
+use durer_surfaces::{Accelerate, LocalPoint, LocalRay, Root, Side, Sink};
 
 /// Whether a ray starts (at `t_min`) inside a solid, for solids whose crossings within the range do
 /// not decide it; `start` is some point of its line.
@@ -14,7 +15,7 @@ use durer_surfaces::{Flow, LocalPoint, LocalRay, Root, Side, Sink, Surface};
 /// unbounded, the exact side of a point of the line decides; this point must not be where the line
 /// enters and leaves the solid within rounding. A point may be proven inside though no chord is
 /// known there: where a tangent touches a formula's solid within rounding.
-pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
+pub(super) fn starts_inside<S: Accelerate>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>) -> bool {
     if let Some(side) = ray.source {
         return side == RaySide::Back;
     }
@@ -55,7 +56,7 @@ pub(super) fn starts_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: 
 
 /// The side of the line apart from touches and pairs of crossings, which are all within `pairs`;
 /// `On` if it is not found.
-fn side_beside<S: Surface>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>, pairs: Hull) -> Side {
+fn side_beside<S: Accelerate>(surface: &S, ray: &LocalRay<'_>, start: &LocalPoint<'_>, pairs: Hull) -> Side {
     let Some((low, high)) = pairs.0 else { return surface.side(start) };
     // At growing distances from the origin of the ray's own parameter, which is near the surface's
     // middle.
@@ -91,7 +92,7 @@ impl Hull {
 /// are touched in at most twelve points; a line in a face of a solid of many faces has left the
 /// face where it has left the box. If no point is found off the boundary, the line lies in the
 /// boundary, and so in the closed solid.
-fn runs_inside<S: Surface>(surface: &S, ray: &LocalRay<'_>) -> bool {
+fn runs_inside<S: Accelerate>(surface: &S, ray: &LocalRay<'_>) -> bool {
     let bounds = surface.bounds();
     let far = bounds.max.to_vec().max_abs().max(bounds.min.to_vec().max_abs()).max(ray.o.to_vec().max_abs());
     let beyond = if far.is_finite() { scale2(1.0, (exponent(far) + 2).min(1000)) } else { 1.0 };
@@ -134,11 +135,11 @@ impl Sink for Ends {
         ALL
     }
 
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         let sign = i32::from(root.sign);
         if sign == 0 {
             self.pairs.add(Hull(Some((root.lo, root.hi))));
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         *self = match self.group {
             Some((sum, (from, reach))) if root.lo <= reach => {
@@ -147,6 +148,6 @@ impl Sink for Ends {
             }
             _ => Self { group: Some((sign, (root.lo, root.hi))), ..core::mem::take(self).closed() },
         };
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }

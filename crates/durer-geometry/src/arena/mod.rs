@@ -15,10 +15,11 @@ use crate::closest::ClosestHit;
 use crate::filter_cache::{FilterKind, SlotFilter};
 use crate::ids::{Id, Ids};
 use crate::spans::Tracks;
+use core::ops::ControlFlow;
 use core::ops::Range;
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::{
-    Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -34,13 +35,13 @@ pub(crate) struct Filter {
 }
 
 /// A receiver of hits: slot, numbers, root.
-pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> Flow + 'a;
+pub(crate) type Visit<'a> = dyn FnMut(u32, Id, Root) -> ControlFlow<()> + 'a;
 
 /// The object-safe interface of an [`Arena`], for ranges of slots.
 pub(crate) trait AnyArena: Send + Sync {
     /// Updates `best` with the slots of a leaf, until no further hit matters.
     fn improve(&self, isa: Isa, leaf: Range<u32>, ray: &LocalRay<'_>, filter: &Filter, best: &mut ClosestHit);
-    /// Passes every hit of the leaf to `visit`, until it returns [`Flow::Stop`].
+    /// Passes every hit of the leaf to `visit`, until it returns [`ControlFlow::Break`].
     fn each(
         &self,
         isa: Isa,
@@ -48,7 +49,7 @@ pub(crate) trait AnyArena: Send + Sync {
         ray: &LocalRay<'_>,
         filter: &Filter,
         visit: &mut Visit<'_>,
-    ) -> Flow;
+    ) -> ControlFlow<()>;
     /// Adds the crossings of the leaf's solids.
     fn spans(
         &self,
@@ -131,7 +132,7 @@ impl<S> Default for Arena<S> {
     }
 }
 
-impl<S: Surface + 'static> Arena<S> {
+impl<S: Accelerate + 'static> Arena<S> {
     pub(crate) fn push(&mut self, surface: S, id: Id, mask: u32) {
         self.surfaces.push(surface);
         self.ids.push(id, mask);
@@ -187,8 +188,8 @@ impl<S: Surface + 'static> Arena<S> {
         leaf: Range<u32>,
         ray: &LocalRay<'_>,
         filter: &Filter,
-        mut f: impl FnMut(Slot<'_, S>, &LocalRay<'_>) -> Flow,
-    ) -> Flow {
+        mut f: impl FnMut(Slot<'_, S>, &LocalRay<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         for slot in leaf {
             let item = self.slot(slot);
             if !self.ids.admits(item.index, filter.mask) {
@@ -203,11 +204,9 @@ impl<S: Surface + 'static> Arena<S> {
                 }
                 _ => ray,
             };
-            if f(item, ray) == Flow::Stop {
-                return Flow::Stop;
-            }
+            f(item, ray)?;
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 
     #[inline(always)]
@@ -231,7 +230,7 @@ struct Slot<'a, S> {
     whole: bool,
 }
 
-impl<S: Surface> Slot<'_, S> {
+impl<S: Accelerate> Slot<'_, S> {
     /// Passes the roots to any sink. Compiled once per path; [`AnyArena::improve`] has a copy of
     /// its own.
     #[inline(never)]
@@ -295,10 +294,14 @@ impl Sink for Challenger<'_> {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         // Roots ascend: once one is not better, the later ones are not either.
-        let Some(root) = in_range(root, self.ray) else { return Flow::Continue };
-        if self.best.offer(self.slot, self.name, &root) { Flow::Continue } else { Flow::Stop }
+        let Some(root) = in_range(root, self.ray) else { return ControlFlow::Continue(()) };
+        if self.best.offer(self.slot, self.name, &root) {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     }
 }
 
@@ -308,7 +311,7 @@ struct Forward<'a, 'b> {
     name: Id,
     ray: &'a LocalRay<'a>,
     visit: &'a mut Visit<'b>,
-    flow: Flow,
+    flow: ControlFlow<()>,
 }
 
 impl Sink for Forward<'_, '_> {
@@ -318,8 +321,8 @@ impl Sink for Forward<'_, '_> {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> Flow {
-        if self.flow == Flow::Continue
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
+        if self.flow.is_continue()
             && let Some(root) = in_range(root, self.ray)
         {
             self.flow = (self.visit)(self.slot, self.name, root);
@@ -328,7 +331,7 @@ impl Sink for Forward<'_, '_> {
     }
 }
 
-impl<S: Surface + 'static> AnyArena for Arena<S> {
+impl<S: Accelerate + 'static> AnyArena for Arena<S> {
     fn improve(
         &self,
         isa: Isa,
@@ -337,7 +340,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         filter: &Filter,
         best: &mut ClosestHit,
     ) {
-        isa.run(
+        let _ = isa.run(
             #[inline(always)]
             || {
                 self.walk(
@@ -348,7 +351,7 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
                     |slot, ray| {
                         let challenger = &mut Challenger { slot: slot.slot, name: slot.name(), ray, best };
                         slot.surface.part_roots(slot.part, ray, challenger);
-                        if best.is_satisfied() { Flow::Stop } else { Flow::Continue }
+                        if best.is_satisfied() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                     },
                 )
             },
@@ -362,9 +365,9 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         ray: &LocalRay<'_>,
         filter: &Filter,
         visit: &mut Visit<'_>,
-    ) -> Flow {
+    ) -> ControlFlow<()> {
         self.walk(leaf, ray, filter, |slot, ray| {
-            let (name, flow) = (slot.name(), Flow::Continue);
+            let (name, flow) = (slot.name(), ControlFlow::Continue(()));
             let mut forward = Forward { slot: slot.slot, name, ray, visit, flow };
             slot.show(isa, ray, &mut forward);
             forward.flow
@@ -380,20 +383,20 @@ impl<S: Surface + 'static> AnyArena for Arena<S> {
         tracks: &mut Tracks,
     ) {
         let filter = tracks.filter();
-        self.walk(leaf, ray, &filter, |slot, ray| {
+        let _ = self.walk(leaf, ray, &filter, |slot, ray| {
             if slot.surface.solidity() == Solidity::Solid {
                 let before = tracks.len();
-                let (name, flow) = (slot.name(), Flow::Continue);
+                let (name, flow) = (slot.name(), ControlFlow::Continue(()));
                 let visit = &mut |_: u32, _: Id, root: Root| {
                     tracks.push(slot.index as u32, slot.part, name, &root);
-                    Flow::Continue
+                    ControlFlow::Continue(())
                 };
                 slot.show(isa, ray, &mut Forward { slot: slot.slot, name, ray, visit, flow });
                 if slot.whole && !tracks.tell_from(before) {
                     tracks.start(slot.index as u32, name, starts_inside(slot.surface, ray, start));
                 }
             }
-            Flow::Continue
+            ControlFlow::Continue(())
         });
     }
 

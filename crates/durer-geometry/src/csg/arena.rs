@@ -11,11 +11,12 @@ use crate::closest::ClosestHit;
 use crate::filter_cache::{FilterKind, SlotFilter};
 use crate::ids::{Id, Ids};
 use crate::spans::Tracks;
+use core::ops::ControlFlow;
 use core::ops::Range;
 use durer_bvh::{Entry, Frame};
 use durer_math::{Aabb, Isa, Point3, RaySide, Shaft};
 use durer_surfaces::packet::FilterSource;
-use durer_surfaces::{Flow, LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
+use durer_surfaces::{LocalPoint, LocalRay, Need, PartId, Root, Side, Solidity, SurfacePoint};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -85,7 +86,7 @@ impl Compounds {
     }
 
     /// Passes the crossings of the admitted solids of a leaf to `show`, those of each solid
-    /// ascending. When `show` returns [`Flow::Stop`] the next solid follows; when `is_done` returns
+    /// ascending. When `show` returns [`ControlFlow::Break`] the next solid follows; when `is_done` returns
     /// true the search ends.
     fn each_body(
         &self,
@@ -93,7 +94,7 @@ impl Compounds {
         leaf: Range<u32>,
         ray: &LocalRay<'_>,
         filter: &Filter,
-        mut show: impl FnMut(u32, Id, Root) -> Flow,
+        mut show: impl FnMut(u32, Id, Root) -> ControlFlow<()>,
         mut is_done: impl FnMut() -> bool,
     ) {
         for body in leaf.map(|i| i as usize) {
@@ -138,13 +139,13 @@ impl AnyArena for Compounds {
         ray: &LocalRay<'_>,
         filter: &Filter,
         visit: &mut Visit<'_>,
-    ) -> Flow {
-        let flow = core::cell::Cell::new(Flow::Continue);
+    ) -> ControlFlow<()> {
+        let flow = core::cell::Cell::new(ControlFlow::Continue(()));
         let show = |slot, id, root| {
             flow.set(visit(slot, id, root));
             flow.get()
         };
-        self.each_body(isa, leaf, ray, filter, show, || flow.get() == Flow::Stop);
+        self.each_body(isa, leaf, ray, filter, show, || flow.get().is_break());
         flow.get()
     }
 
@@ -163,7 +164,7 @@ impl AnyArena for Compounds {
             let before = tracks.len();
             let inside = self.bodies[body].trace(isa, ray, self.from(body, &filter), &mut |found| {
                 tracks.push(body as u32, PartId(0), self.id(body, &found), &found.root);
-                Flow::Continue
+                ControlFlow::Continue(())
             });
             if tracks.len() == before {
                 tracks.start(body as u32, self.ids.name(body), inside);
@@ -176,7 +177,7 @@ impl AnyArena for Compounds {
     }
 
     fn starts_inside(&self, slot: u32, ray: &LocalRay<'_>) -> bool {
-        self.bodies[slot as usize].trace(Isa::detect(), ray, None, &mut |_| Flow::Stop)
+        self.bodies[slot as usize].trace(Isa::detect(), ray, None, &mut |_| ControlFlow::Break(()))
     }
 
     fn misses(&self, slot: u32, shaft: &Shaft) -> bool {

@@ -10,7 +10,7 @@ use crate::ids::EVERYTHING;
 use crate::{BuildError, Builder, Geometry, LeafId, ObjectId, PrimitiveId};
 use durer_bvh::Leaf;
 use durer_math::Aabb;
-use durer_surfaces::{LocalPoint, Side, Solidity, Surface};
+use durer_surfaces::{Accelerate, LocalPoint, Side, Solidity};
 
 /// Unions, intersections and differences of solids as one solid: for [`Builder::add_compound`].
 ///
@@ -111,13 +111,13 @@ pub struct CompoundBuilder {
 
 impl CompoundBuilder {
     /// Adds a solid, as the next primitive.
-    pub fn leaf<S: Surface + 'static>(&mut self, solid: S) -> Result<Part, CsgError> {
+    pub fn leaf<S: Accelerate + 'static>(&mut self, solid: S) -> Result<Part, CsgError> {
         self.leaf_as(solid, LeafId(self.primitives), Shown::All)
     }
 
     /// Adds a solid under the given number. If a surface has parts (the faces of a mesh), part `i`
     /// has the number plus `i`.
-    pub fn leaf_as<S: Surface + 'static>(
+    pub fn leaf_as<S: Accelerate + 'static>(
         &mut self,
         solid: S,
         LeafId(primitive): LeafId,

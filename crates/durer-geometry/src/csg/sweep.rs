@@ -1,7 +1,8 @@
 //! The sweep along a ray: from the crossings of leaves to those of the CSG solid.
 
 use super::tree::{Tree, Values};
-use durer_surfaces::{Flow, Root};
+use core::ops::ControlFlow;
+use durer_surfaces::Root;
 
 /// A crossing of a leaf.
 #[derive(Clone, Copy, Debug)]
@@ -157,7 +158,7 @@ impl Scratch {
     }
 
     /// Passes the solid's crossings to `show`, in their order; returns `false` if `show` returned
-    /// [`Flow::Stop`]. [`Scratch::starts_inside`] must be called before. Continues from the last
+    /// [`ControlFlow::Break`]. [`Scratch::starts_inside`] must be called before. Continues from the last
     /// call, not beyond `until`: before that no event is missing.
     pub(super) fn sweep(
         &mut self,
@@ -165,7 +166,7 @@ impl Scratch {
         until: f64,
         sense: impl Fn(u32) -> Sense,
         is_shown: impl Fn(&Event) -> bool,
-        mut show: impl FnMut(&Crossing) -> Flow,
+        mut show: impl FnMut(&Crossing) -> ControlFlow<()>,
     ) -> bool {
         let mut events = core::mem::take(&mut self.events);
         self.looked_at = events.len();
@@ -210,7 +211,7 @@ impl Scratch {
         group: &[Event],
         sense: &impl Fn(u32) -> Sense,
         is_shown: &impl Fn(&Event) -> bool,
-        show: &mut impl FnMut(&Crossing) -> Flow,
+        show: &mut impl FnMut(&Crossing) -> ControlFlow<()>,
     ) -> bool {
         let before = self.values.holds(tree);
         let step = self.values.next_step();
@@ -266,7 +267,7 @@ impl Scratch {
                 };
                 let matter = |l: &&u32| self.leaves[**l as usize].mattered || self.values.matters(tree, **l);
                 let tied = several && tied.iter().filter(matter).count() > 1;
-                go_on = show(&Crossing { event, sign, tied }) == Flow::Continue;
+                go_on = show(&Crossing { event, sign, tied }).is_continue();
             }
         }
         if before && after && tree.has_inner_faces() && !touches {
@@ -290,7 +291,7 @@ impl Scratch {
         group: &[Event],
         sense: &impl Fn(u32) -> Sense,
         is_shown: &impl Fn(&Event) -> bool,
-        show: &mut impl FnMut(&Crossing) -> Flow,
+        show: &mut impl FnMut(&Crossing) -> ControlFlow<()>,
     ) -> bool {
         group.iter().enumerate().all(|(i, event)| {
             let holds = self.values.leaf(event.leaf);
@@ -304,7 +305,7 @@ impl Scratch {
                 return true;
             }
             let sign = if holds != tree.is_inverted(event.leaf) { -1 } else { 1 };
-            show(&Crossing { event: *event, sign, tied: false }) == Flow::Continue
+            show(&Crossing { event: *event, sign, tied: false }).is_continue()
         })
     }
 }

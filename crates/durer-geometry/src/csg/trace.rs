@@ -15,10 +15,11 @@ use crate::arena::Filter;
 use crate::geometry::slots;
 use crate::ids::{EVERYTHING, Id};
 use core::cell::RefCell;
+use core::ops::ControlFlow;
 use core::ops::Range;
 use durer_bvh::{Leaf, Ray64};
 use durer_math::{Isa, RaySide};
-use durer_surfaces::{FirstCrossing, Flow, LocalRay, Need, Root, Sink, SurfacePoint};
+use durer_surfaces::{FirstCrossing, LocalRay, Need, Root, Sink, SurfacePoint};
 
 /// A root of the CSG solid, in the form for a geometry's queries.
 pub(super) struct Found {
@@ -89,13 +90,13 @@ struct Pieces {
 
 impl Compound {
     /// Passes the crossings of the solid in the ray's range to `show`, ascending, until it returns
-    /// [`Flow::Stop`]; returns whether the ray starts inside.
+    /// [`ControlFlow::Break`]; returns whether the ray starts inside.
     pub(super) fn trace(
         &self,
         isa: Isa,
         ray: &LocalRay<'_>,
         from: Option<Start>,
-        show: &mut dyn FnMut(Found) -> Flow,
+        show: &mut dyn FnMut(Found) -> ControlFlow<()>,
     ) -> bool {
         // A single piece has no inner end at which a crossing could be split.
         with_scratch(|scratch| self.walk(isa, ray, from, f64::INFINITY, None, scratch, show).unwrap_or(false))
@@ -120,7 +121,7 @@ impl Compound {
     ) {
         let mut take = |found| {
             show(found);
-            Flow::Stop
+            ControlFlow::Break(())
         };
         let pieces = if self.by_pieces { self.pieces(ray, until) } else { None };
         with_scratch(|scratch| {
@@ -142,7 +143,7 @@ impl Compound {
         until: f64,
         mut pieces: Option<Pieces>,
         scratch: &mut Scratch,
-        show: &mut dyn FnMut(Found) -> Flow,
+        show: &mut dyn FnMut(Found) -> ControlFlow<()>,
     ) -> Option<bool> {
         let whole = self.line(ray, until);
         let asked = self.begin(isa, ray, from, scratch);
@@ -174,15 +175,15 @@ impl Compound {
                 |event| self.traits[event.leaf as usize].shown.holds(event.root.face),
                 |crossing| {
                     if crossing.event.root.lo > limit {
-                        return Flow::Stop;
+                        return ControlFlow::Break(());
                     }
                     if core::mem::take(&mut astray) && self.starts_at(isa, ray, &crossing.event) {
                         inside = !inside;
-                        return Flow::Continue;
+                        return ControlFlow::Continue(());
                     }
                     match self.in_range(isa, ray, crossing) {
                         Some(root) => show(self.found(crossing, root)),
-                        None => Flow::Continue,
+                        None => ControlFlow::Continue(()),
                     }
                 },
             );
@@ -281,9 +282,9 @@ impl Compound {
         let filter = Filter { mask: EVERYTHING, source };
         let mut take = |slot, id: Id, root| {
             scratch.push(id.object, self.traits[id.object as usize].sense, (arena, slot), root);
-            Flow::Continue
+            ControlFlow::Continue(())
         };
-        self.arena(arena).each(asked.isa, slots, &asked.ahead, &filter, &mut take);
+        let _ = self.arena(arena).each(asked.isa, slots, &asked.ahead, &filter, &mut take);
     }
 
     /// Whether a ray starts at a surface that it crosses, up to rounding.
@@ -315,9 +316,9 @@ impl Compound {
             if (r.s.to_bits(), r.face, r.sign) == (root.s.to_bits(), root.face, root.sign) {
                 found = Some(r);
             }
-            Flow::Continue
+            ControlFlow::Continue(())
         };
-        self.arena(arena).each(isa, slot..slot + 1, &local, &filter, &mut take);
+        let _ = self.arena(arena).each(isa, slot..slot + 1, &local, &filter, &mut take);
         found
     }
 

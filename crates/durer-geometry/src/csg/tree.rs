@@ -569,8 +569,8 @@ mod tests {
         ];
         let half_spaces = six.map(|p| Extent {
             bounds: Aabb::UNBOUNDED,
-            inner: durer_surfaces::Surface::inner_bounds(&p),
-            half_space: durer_surfaces::Surface::half_space(&p),
+            inner: durer_surfaces::Accelerate::inner_bounds(&p),
+            half_space: durer_surfaces::Accelerate::half_space(&p),
         });
         let mut exprs: Vec<Expr> = (0..6).map(Expr::Leaf).collect();
         exprs.push(Expr::All((0..6).collect()));

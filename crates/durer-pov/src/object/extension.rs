@@ -9,7 +9,7 @@ use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::parser::{Item, Parser};
 use crate::value::Terms;
-use durer_scene::FillRule;
+use durer_scene::{FillRule, SweepSpline};
 
 /// A quadric by its name, its axis along z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,7 @@ pub(crate) enum Word {
     Parallelogram,
     Lemon,
     Deform,
+    Capsule,
     Cyclide,
     Ifs,
     Terrain,
@@ -68,6 +69,7 @@ impl Word {
             "parallelogram" => Self::Parallelogram,
             "lemon" => Self::Lemon,
             "deform" => Self::Deform,
+            "capsule" => Self::Capsule,
             "cyclide" => Self::Cyclide,
             "ifs" => Self::Ifs,
             "terrain" => Self::Terrain,
@@ -137,6 +139,7 @@ impl Parser<'_> {
             }
             Word::Lemon => return self.lemon(place),
             Word::Deform => return self.deform(place),
+            Word::Capsule => return self.capsule(),
             Word::Cyclide => return self.cyclide(),
             Word::Ifs => return self.ifs(place),
             Word::Terrain => return self.terrain(place),
@@ -190,6 +193,13 @@ impl Parser<'_> {
             ));
         }
         Ok(Shape::Named(Box::new(named)))
+    }
+
+    /// Two points, and how far from the line between them the surface is.
+    fn capsule(&mut self) -> Result<Shape> {
+        let ends = [self.corner()?, self.corner()?];
+        let radius = self.radius("the radius of the capsule")?;
+        Ok(Shape::SphereSweep(SweepSpline::Linear, ends.map(|[x, y, z]| [x, y, z, radius]).into()))
     }
 
     /// The semi-axis and the focal distance of a cyclide's ellipse, and the mean radius of its spheres.

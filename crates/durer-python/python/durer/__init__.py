@@ -64,6 +64,7 @@ from ._objects import (
 from ._patches import BezierPatch, Nurbs, Sewn, Subdivision, TriangularPatch
 from ._sheets import HeightField, Terrain
 from ._swept import (
+    Capsule,
     Lathe,
     Lemon,
     Ovus,
@@ -101,6 +102,7 @@ __all__ = [
     "bound_image",
     "Box",
     "Camera",
+    "Capsule",
     "chord_lengths",
     "Chords",
     "Clipped",

@@ -88,6 +88,27 @@ class Sweep(Object):
 
 
 @final
+class Capsule(Object):
+    """All points within `radius` of the line from `base` to `cap`.
+
+    Examples
+    --------
+    >>> import durer
+    >>> durer.Scene([durer.Capsule((0, 0, 0), (4, 0, 0), 1)]).all([[-5, 0, 0]], [[1, 0, 0]]).t
+    array([ 4., 10.])
+    """
+
+    __slots__ = ()
+
+    def __init__(self, base: npt.ArrayLike, cap: npt.ArrayLike, radius: float) -> None:
+        arguments = (vector(base, "base"), vector(cap, "cap"), float(radius))
+        if not arguments[2] > 0.0:
+            raise ValueError(f"capsule: the radius must be finite and positive, got {arguments[2]}")
+        ends = tuple((*end, arguments[2]) for end in arguments[:2])
+        self._set(_native.sphere_sweep(ends, "linear"), arguments)
+
+
+@final
 class SphereSweep(Object):
     """All balls whose centres and radii follow a spline of `spheres`, an array (n, 4) of x, y, z and radius.
 

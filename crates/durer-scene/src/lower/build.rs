@@ -2,7 +2,7 @@
 
 use durer_geometry::{Builder, CompoundBuilder, LeafId, ObjectId, Part, PrimitiveId, Shown};
 use durer_math::{Aabb, Affine};
-use durer_surfaces::{Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity, Surface};
+use durer_surfaces::{Accelerate, Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity};
 
 use super::camera_media::{Enclosure, Held};
 
@@ -67,7 +67,7 @@ impl Target<'_> {
 
     /// Keeps the closed, unclipped solid if camera rays may start inside it: the scene language
     /// uses it to find the media around the camera.
-    pub(super) fn contain<S: Surface + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
+    pub(super) fn contain<S: Accelerate + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
         let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
         if self.camera.is_empty()
             || solid.solidity() != Solidity::Solid
@@ -83,7 +83,7 @@ impl Target<'_> {
         self.inside = (inside.holds_all(&self.camera) != Some(false)).then_some(inside);
     }
 
-    fn push<S: Surface + 'static>(&mut self, surface: S) {
+    fn push<S: Accelerate + 'static>(&mut self, surface: S) {
         match &mut self.to {
             To::Scene(builder, object, primitive, mask) => {
                 builder.add_as(surface, *object, *primitive, *mask);

@@ -2,7 +2,7 @@
 
 use durer_geometry::Compound;
 use durer_math::{Aabb, Point3, Ray, Shaft};
-use durer_surfaces::{FirstCrossing, LocalPoint, LocalRay, Side, Surface};
+use durer_surfaces::{Accelerate, FirstCrossing, LocalPoint, LocalRay, Side};
 use std::sync::Arc;
 
 /// A solid that contains the camera or may contain it.
@@ -36,7 +36,7 @@ pub(super) struct Held<S> {
     pub(super) inverse: bool,
 }
 
-impl<S: Surface> Enclosure for Held<S> {
+impl<S: Accelerate> Enclosure for Held<S> {
     fn side(&self, p: Point3) -> Side {
         match self.solid.side(&LocalPoint::new(p)) {
             Side::In if self.inverse => Side::Out,

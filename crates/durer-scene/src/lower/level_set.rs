@@ -4,8 +4,8 @@ use durer_math::{Aabb, Affine, elementary};
 use durer_surfaces::implicit::level_set::primitives::{self, Principal};
 use durer_surfaces::tape::Formula;
 use durer_surfaces::{
-    AxisBox, Blob, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric, Sphere,
-    SphericalSector, Surface, Torus,
+    Accelerate, AxisBox, Blob, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric,
+    Sphere, SphericalSector, Surface, Torus,
 };
 
 use super::shapes::{self, Result, shape_error};
@@ -59,7 +59,7 @@ fn turned(solid: LevelSet, inverse: bool) -> Result<LevelSet> {
 
 /// Places a formula. `surface` is the same solid: its constructor has checked the numbers, and it
 /// gives the bounds.
-fn placed(formula: Formula, surface: &impl Surface, place: &Affine) -> Result<LevelSet> {
+fn placed(formula: Formula, surface: &impl Accelerate, place: &Affine) -> Result<LevelSet> {
     let bounds = if surface.bounds().is_bounded() { surface.bounds_through(place) } else { Aabb::UNBOUNDED };
     LevelSet::new(formula, surface.bounds()).placed_within(place, bounds).map_err(shape_error)
 }

@@ -3,7 +3,7 @@
 use durer_math::{Aabb, Affine};
 use durer_surfaces::quadric::axial::Wall;
 use durer_surfaces::{
-    Axial, AxialError, Cone, Ellipsoid, EllipticCylinder, EllipticParaboloid, HyperbolicCylinder,
+    Accelerate, Axial, AxialError, Cone, Ellipsoid, EllipticCylinder, EllipticParaboloid, HyperbolicCylinder,
     HyperbolicParaboloid, HyperboloidOfOneSheet, HyperboloidOfTwoSheets, ParabolicCylinder, Region, Surface,
 };
 

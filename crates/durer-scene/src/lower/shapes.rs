@@ -109,6 +109,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.contain(&solid, map);
             target.add_rare(solid, map);
         }
+        Shape::Own(surface) => add_closed(&mut target, surface.clone(), map),
         Shape::Prism(shape) => {
             prism(&shape.outlines, shape.spline, shape.heights, shape.sweep, open, map, &mut target)?;
         }
@@ -588,6 +589,7 @@ pub(super) fn name(shape: &Shape) -> &'static str {
         Shape::HeightField(_) => "a height field",
         Shape::Terrain(_) => "a terrain",
         Shape::Deform(_) => "a deformed solid",
+        Shape::Own(_) => "a surface of the program's own",
         Shape::Union(_) => "a union",
         Shape::Csg(Operation::Merge, _) => "a merge",
         Shape::Csg(Operation::Intersection, _) => "an intersection",

@@ -15,7 +15,7 @@ use super::BlobShape;
 use super::{BlobComponent, march::Along};
 use crate::packet::Field;
 use crate::quadric::boolean_faces::tangents;
-use crate::{SphereError, Surface};
+use crate::{Accelerate, SphereError};
 use durer_math::eft::{scale2, two_diff};
 use durer_math::{Aabb, Affine, Point3, U, Vec3};
 

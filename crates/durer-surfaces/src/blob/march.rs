@@ -12,8 +12,9 @@ use super::refine::{Bracket, Touch};
 use super::segment::{SegmentRoot, Stretch};
 use super::tree::{Inner, is_known};
 use crate::roots::quadratic::NARROW;
-use crate::{CentredRay, End, Flow, PREVIEW_WIDTH, Root, RootKind, Sink};
+use crate::{CentredRay, End, PREVIEW_WIDTH, Root, RootKind, Sink};
 use core::cell::Cell;
+use core::ops::ControlFlow;
 use durer_math::{EFloat, Isa, RaySide, U, Vec3};
 
 /// A ray in the frame of a blob, in units.
@@ -220,7 +221,7 @@ impl Query<'_> {
                 break;
             }
             if self.lists.active.is_empty() {
-                if self.report(SegmentRoot::Sign(false)) == Flow::Stop {
+                if self.report(SegmentRoot::Sign(false)).is_break() {
                     return;
                 }
                 here = next;
@@ -248,7 +249,7 @@ impl Query<'_> {
         // Behind the last field the sum is zero. A ray that ends within a field may leave an
         // unresolved stretch open.
         let after = self.lists.active.is_empty().then_some(false);
-        self.close(after);
+        let _ = self.close(after);
     }
 
     /// The polynomial on a stretch.
@@ -275,7 +276,7 @@ impl Query<'_> {
     fn stretch(&mut self, lo: f64, hi: f64) -> Option<f64> {
         let most = self.lists.active.iter().fold(0.0, |sum, &i| sum + self.lists.pieces[i as usize].peak);
         if (most + self.charge) * (1.0 + 1.0 / 1024.0) < self.blob.threshold {
-            return (self.report(SegmentRoot::Sign(false)) == Flow::Continue).then_some(hi);
+            return (self.report(SegmentRoot::Sign(false)).is_continue()).then_some(hi);
         }
         // The previous stretch's result at its end is certain for the sum itself, though rounding
         // may hide it here.
@@ -299,7 +300,7 @@ impl Query<'_> {
         let mut stretch = delayed(self.sum(lo, hi));
         let mut form = stretch.form();
         if let Some(sign) = stretch.sign(&form) {
-            return (self.report(SegmentRoot::Sign(sign)) == Flow::Continue).then_some(hi);
+            return (self.report(SegmentRoot::Sign(sign)).is_continue()).then_some(hi);
         }
         let mut end = hi;
         if stretch.sign_at_end(&form).is_none() {
@@ -340,20 +341,24 @@ impl Query<'_> {
             #[inline(always)]
             |told| self.report(told),
         );
-        (flow == Flow::Continue).then_some(end)
+        (flow.is_continue()).then_some(end)
     }
 
     #[inline(always)]
-    fn report(&mut self, told: SegmentRoot) -> Flow {
+    fn report(&mut self, told: SegmentRoot) -> ControlFlow<()> {
         match told {
             SegmentRoot::Sign(sign) => {
-                let flow = if self.tracker.open.is_some() { self.close(Some(sign)) } else { Flow::Continue };
+                let flow = if self.tracker.open.is_some() {
+                    self.close(Some(sign))
+                } else {
+                    ControlFlow::Continue(())
+                };
                 self.tracker.before = Some(sign);
                 flow
             }
             SegmentRoot::Root { s, lo, hi, rises, alone } => {
-                if self.tracker.open.is_some() && self.close(Some(!rises)) == Flow::Stop {
-                    return Flow::Stop;
+                if self.tracker.open.is_some() {
+                    self.close(Some(!rises))?;
                 }
                 self.tracker.before = Some(rises);
                 self.crossing(Bracket { s, lo, hi, rises, alone })
@@ -365,12 +370,12 @@ impl Query<'_> {
                     && self.begin > f64::NEG_INFINITY =>
             {
                 self.blind = true;
-                Flow::Stop
+                ControlFlow::Break(())
             }
             SegmentRoot::Unresolved { lo, hi } => {
                 let (from, to) = self.tracker.open.unwrap_or((lo, hi));
                 self.tracker.open = Some((from, to.max(hi)));
-                Flow::Continue
+                ControlFlow::Continue(())
             }
         }
     }
@@ -384,7 +389,7 @@ impl Query<'_> {
 
     /// Reports a crossing between certain signs, in the narrowest bracket; for pictures only where
     /// it may lie on either side of an end of the range.
-    fn crossing(&mut self, found: Bracket) -> Flow {
+    fn crossing(&mut self, found: Bracket) -> ControlFlow<()> {
         let (lo, hi) = self.at.bracket(found.lo, found.hi);
         let found = if self.at.local().rough && self.at.admits(lo, hi).is_some() {
             found
@@ -397,8 +402,8 @@ impl Query<'_> {
     }
 
     /// The unresolved stretch ends where the sign is `after`.
-    fn close(&mut self, after: Option<bool>) -> Flow {
-        let Some((lo, hi)) = self.tracker.open.take() else { return Flow::Continue };
+    fn close(&mut self, after: Option<bool>) -> ControlFlow<()> {
+        let Some((lo, hi)) = self.tracker.open.take() else { return ControlFlow::Continue(()) };
         let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
         match (self.tracker.before, after) {
             (Some(before), Some(after)) if before != after => {
@@ -411,15 +416,15 @@ impl Query<'_> {
 
     /// The unresolved stretch ends on the side on which it began.
     #[cold]
-    fn touch(&mut self, stretch: (f64, f64), out: bool) -> Flow {
+    fn touch(&mut self, stretch: (f64, f64), out: bool) -> ControlFlow<()> {
         match self.blob.touched(self.at, stretch, out) {
             Touch::Crossings(found) => {
                 for Bracket { s, lo, hi, rises, .. } in found {
-                    if self.show(s, (lo, hi), if rises { -1 } else { 1 }, RootKind::Simple) == Flow::Stop {
-                        return Flow::Stop;
+                    if self.show(s, (lo, hi), if rises { -1 } else { 1 }, RootKind::Simple).is_break() {
+                        return ControlFlow::Break(());
                     }
                 }
-                Flow::Continue
+                ControlFlow::Continue(())
             }
             Touch::Open(lo, hi) => {
                 let s = (0.5 * lo + 0.5 * hi).max(lo).min(hi);
@@ -442,7 +447,7 @@ impl Query<'_> {
 
     /// Passes on a root, unless it is certainly out of the ray's range.
     #[inline(never)]
-    fn show(&mut self, s: f64, ends: (f64, f64), sign: i8, kind: RootKind) -> Flow {
+    fn show(&mut self, s: f64, ends: (f64, f64), sign: i8, kind: RootKind) -> ControlFlow<()> {
         Isa::detect().run(
             #[inline(always)]
             || self.show_here(s, ends, sign, kind),
@@ -450,13 +455,13 @@ impl Query<'_> {
     }
 
     #[inline(always)]
-    fn show_here(&mut self, s: f64, (lo, hi): (f64, f64), sign: i8, kind: RootKind) -> Flow {
+    fn show_here(&mut self, s: f64, (lo, hi): (f64, f64), sign: i8, kind: RootKind) -> ControlFlow<()> {
         let (mut lo, hi) = self.at.bracket(lo, hi);
         let admitted = self.at.admits(lo, hi);
         if admitted == Some(false)
             || admitted.is_none() && kind == RootKind::Simple && self.is_beyond((lo, hi), sign)
         {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         if self.start.is_some() {
             lo = lo.max(0.0).min(hi);

@@ -35,8 +35,8 @@ use crate::compose::clip::Algebraic;
 use crate::packet::{Fields, FilterSource};
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
-    SphereError, Surface, SurfacePoint,
+    Accelerate, AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
+    Solidity, SphereError, Surface, SurfacePoint,
 };
 pub(crate) use march::Along;
 pub(crate) use tree::{Inner, Tree};
@@ -185,10 +185,6 @@ impl PartialEq for Blob {
 }
 
 impl Surface for Blob {
-    fn name(&self) -> &'static str {
-        "blob"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -204,6 +200,20 @@ impl Surface for Blob {
         self.point(ray, root, need)
     }
 
+    fn solidity(&self) -> Solidity {
+        Solidity::Solid
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.side_of(point)
+    }
+}
+
+impl Accelerate for Blob {
+    fn name(&self) -> &'static str {
+        "blob"
+    }
+
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         let unit = |p: Point3| (p - self.centre).map(|x| scale2(x, -self.scale)).to_point();
         let boxes = self.components.iter().filter_map(|it| it.bounds().ok());
@@ -212,14 +222,6 @@ impl Surface for Blob {
             Some(fields) => FilterSource::fields(self.bounds, fields, self.centre, self.scale),
             None => FilterSource::vague(self.bounds),
         }
-    }
-
-    fn solidity(&self) -> Solidity {
-        Solidity::Solid
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        self.side_of(point)
     }
 }
 

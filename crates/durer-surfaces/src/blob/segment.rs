@@ -7,9 +7,9 @@
 //! (rounding, the ray, fields that begin or end slightly beside the stretch's ends), so a certain
 //! sign is that of the sum itself.
 
-use crate::Flow;
 use crate::roots::bernstein::{Bernstein, Count, FLOOR};
 use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use durer_math::U;
 
 /// The shortest part of a stretch that is divided.
@@ -76,8 +76,8 @@ impl Stretch {
         form: Bernstein<f64, 5>,
         first: Option<bool>,
         widest: impl Fn(f64) -> f64,
-        mut take: impl FnMut(SegmentRoot) -> Flow,
-    ) -> Flow {
+        mut take: impl FnMut(SegmentRoot) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let mut open = ArrayVec::<SegmentPart, 64>::new();
         open.push(SegmentPart { form, l: -1.0, r: 1.0, bits: 0, first });
         let mut parts = 0;
@@ -92,9 +92,7 @@ impl Stretch {
                 Count::Open => None,
             };
             if let Some(told) = told {
-                if take(told) == Flow::Stop {
-                    return Flow::Stop;
-                }
+                take(told)?;
                 continue;
             }
             // Divided where the sign is certain, if there is such a point near the middle.
@@ -112,7 +110,7 @@ impl Stretch {
             open.push(SegmentPart { form: right, l: m, r: node.r, bits, first: None });
             open.push(SegmentPart { form: left, l: node.l, r: m, bits, first: node.first });
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 
     /// A parameter not above that of `x`.

@@ -8,7 +8,8 @@ use crate::packet::FilterSource;
 use crate::point::least_step;
 use crate::ray::through_inverse;
 use crate::{
-    HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use durer_math::{Aabb, Affine, Interval, Isa, U, Vec3};
 
@@ -39,21 +40,9 @@ impl<S: Surface> Placed<S> {
     }
 }
 
-impl<S: Surface> Surface for Placed<S> {
-    fn name(&self) -> &'static str {
-        self.surface.name()
-    }
-
+impl<S: Accelerate> Surface for Placed<S> {
     fn bounds(&self) -> Aabb {
         self.surface.bounds_through(&self.map)
-    }
-
-    fn inner_bounds(&self) -> Aabb {
-        inner_image(&self.map, &self.surface.inner_bounds())
-    }
-
-    fn half_space(&self) -> Option<HalfSpace> {
-        Some(self.surface.half_space()?.through(&self.map))
     }
 
     #[inline(always)]
@@ -66,6 +55,28 @@ impl<S: Surface> Surface for Placed<S> {
         place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
     }
 
+    fn solidity(&self) -> Solidity {
+        self.surface.solidity()
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.surface.side(&point.through(&self.map))
+    }
+}
+
+impl<S: Accelerate> Accelerate for Placed<S> {
+    fn name(&self) -> &'static str {
+        self.surface.name()
+    }
+
+    fn inner_bounds(&self) -> Aabb {
+        inner_image(&self.map, &self.surface.inner_bounds())
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(self.surface.half_space()?.through(&self.map))
+    }
+
     fn packet_filter(&self, part: PartId) -> FilterSource {
         self.surface.packet_filter(part).placed(&self.map)
     }
@@ -73,14 +84,6 @@ impl<S: Surface> Surface for Placed<S> {
     fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
         let (sketch, parts) = self.surface.solid_packet_filter();
         (sketch.placed(&self.map), parts)
-    }
-
-    fn solidity(&self) -> Solidity {
-        self.surface.solidity()
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        self.surface.side(&point.through(&self.map))
     }
 
     #[inline(always)]

@@ -13,13 +13,14 @@ use crate::quadric::boolean_faces::{Frame, QuadricFaces};
 use crate::quadric::solid::QuadricSolid;
 use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::sphere::Sphere;
-use crate::{Flow, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Ring};
 use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.
-pub trait Algebraic: Surface {
+pub trait Algebraic: Accelerate {
     /// The polynomial of the face along the ray, in the ray's own parameter `s`, times any positive
     /// factor; negative behind the face. `None` if the ray is not exactly known, and on faces of a
     /// degree above two.
@@ -264,16 +265,12 @@ impl<S: Algebraic, K: Sink + ?Sized> Sink for Keeping<'_, '_, S, K> {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> Flow {
-        if self.clip.keeps(self.ray, &root) { self.sink.push(root) } else { Flow::Continue }
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
+        if self.clip.keeps(self.ray, &root) { self.sink.push(root) } else { ControlFlow::Continue(()) }
     }
 }
 
 impl<S: Algebraic> Surface for Clip<S> {
-    fn name(&self) -> &'static str {
-        self.surface.name()
-    }
-
     fn bounds(&self) -> Aabb {
         let whole = self.surface.bounds_among(&self.regions, None);
         self.regions.iter().fold(whole, |b, r| b.intersection(r.bounds()))
@@ -289,6 +286,12 @@ impl<S: Algebraic> Surface for Clip<S> {
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.surface.resolve(ray, root, need)
+    }
+}
+
+impl<S: Algebraic> Accelerate for Clip<S> {
+    fn name(&self) -> &'static str {
+        self.surface.name()
     }
 
     fn packet_filter(&self, part: PartId) -> FilterSource {
@@ -338,7 +341,7 @@ impl<S: Algebraic> Algebraic for Clip<S> {
 mod tests {
     use super::*;
     use crate::laws::TestRng;
-    use crate::{CappedCylinder, Flow, Quadric};
+    use crate::{CappedCylinder, Quadric};
     use durer_math::{Normal3, Point3, Ray, Vec3};
 
     /// All roots.
@@ -349,9 +352,9 @@ mod tests {
             (f64::NEG_INFINITY, f64::INFINITY)
         }
 
-        fn push(&mut self, root: Root) -> Flow {
+        fn push(&mut self, root: Root) -> ControlFlow<()> {
             self.0.push(root);
-            Flow::Continue
+            ControlFlow::Continue(())
         }
     }
 

@@ -4,9 +4,11 @@ use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, RaySide};
 
 /// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point
@@ -24,7 +26,7 @@ impl<K: Sink + ?Sized> Sink for Turning<'_, K> {
     }
 
     #[inline(always)]
-    fn push(&mut self, root: Root) -> crate::Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         self.0.push(Root { sign: -root.sign, ..root })
     }
 }
@@ -34,20 +36,12 @@ fn turned(ray: &LocalRay<'_>) -> Option<RaySide> {
 }
 
 impl<S: Surface> Surface for Complement<S> {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-
     /// The surface's bounds for a sheet; none for a solid, whose inside is all the rest.
     fn bounds(&self) -> Aabb {
         match self.solidity() {
             Solidity::Open => self.0.bounds(),
             Solidity::Solid => Aabb::UNBOUNDED,
         }
-    }
-
-    fn half_space(&self) -> Option<HalfSpace> {
-        Some(self.0.half_space()?.complement())
     }
 
     #[inline(always)]
@@ -62,15 +56,6 @@ impl<S: Surface> Surface for Complement<S> {
         SurfacePoint { ng: -p.ng, ns: -p.ns, dndu: -p.dndu, dndv: -p.dndv, ..p }
     }
 
-    fn packet_filter(&self, part: PartId) -> FilterSource {
-        self.0.packet_filter(part).turned()
-    }
-
-    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
-        let (sketch, parts) = self.0.solid_packet_filter();
-        (sketch.turned(), parts)
-    }
-
     fn solidity(&self) -> Solidity {
         self.0.solidity()
     }
@@ -82,6 +67,25 @@ impl<S: Surface> Surface for Complement<S> {
             (_, Side::Out) => Side::In,
             (_, Side::On) => Side::On,
         }
+    }
+}
+
+impl<S: Accelerate> Accelerate for Complement<S> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn half_space(&self) -> Option<HalfSpace> {
+        Some(self.0.half_space()?.complement())
+    }
+
+    fn packet_filter(&self, part: PartId) -> FilterSource {
+        self.0.packet_filter(part).turned()
+    }
+
+    fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
+        let (sketch, parts) = self.0.solid_packet_filter();
+        (sketch.turned(), parts)
     }
 
     #[inline(always)]

@@ -6,7 +6,8 @@ use crate::compose::region::Region;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
@@ -75,12 +76,30 @@ impl DynSurface {
 }
 
 impl Surface for DynSurface {
-    fn name(&self) -> &'static str {
-        self.surface.name()
-    }
-
     fn bounds(&self) -> Aabb {
         self.surface.bounds()
+    }
+
+    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
+        self.surface.roots_dyn(self.isa, ray, &mut Forward(sink));
+    }
+
+    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
+        self.surface.resolve_dyn(self.isa, ray, root, need)
+    }
+
+    fn solidity(&self) -> Solidity {
+        self.surface.solidity()
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        self.surface.side(point)
+    }
+}
+
+impl Accelerate for DynSurface {
+    fn name(&self) -> &'static str {
+        self.surface.name()
     }
 
     fn bounds_through(&self, map: &Affine) -> Aabb {
@@ -101,22 +120,6 @@ impl Surface for DynSurface {
 
     fn is_left(&self, side: RaySide, shaft: &Shaft) -> bool {
         self.surface.is_left(side, shaft)
-    }
-
-    fn roots<K: Sink + ?Sized>(&self, ray: &LocalRay<'_>, sink: &mut K) {
-        self.surface.roots_dyn(self.isa, ray, &mut Forward(sink));
-    }
-
-    fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        self.surface.resolve_dyn(self.isa, ray, root, need)
-    }
-
-    fn solidity(&self) -> Solidity {
-        self.surface.solidity()
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        self.surface.side(point)
     }
 
     fn parts(&self, f: &mut dyn FnMut(Aabb, PartId)) {
@@ -162,8 +165,15 @@ impl Algebraic for DynSurface {
     }
 }
 
+/// Whether both are the same surface in memory: the numbers within are not compared.
+impl PartialEq for DynSurface {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface)
+    }
+}
+
 impl core::fmt::Debug for DynSurface {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Erased").field("bounds", &self.bounds()).finish_non_exhaustive()
+        f.debug_struct("DynSurface").field("bounds", &self.bounds()).finish_non_exhaustive()
     }
 }

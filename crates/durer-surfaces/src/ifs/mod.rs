@@ -39,8 +39,8 @@ use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, SphereError,
-    Surface, SurfacePoint,
+    Accelerate, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
+    SphereError, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
@@ -329,10 +329,6 @@ impl PartialEq for Ifs {
 }
 
 impl Surface for Ifs {
-    fn name(&self) -> &'static str {
-        "iterated function system"
-    }
-
     fn bounds(&self) -> Aabb {
         self.0.bounds[self.0.depth as usize]
     }
@@ -353,16 +349,22 @@ impl Surface for Ifs {
         )
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.bounds())
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         self.0.side_of(point)
+    }
+}
+
+impl Accelerate for Ifs {
+    fn name(&self) -> &'static str {
+        "iterated function system"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds())
     }
 }
 

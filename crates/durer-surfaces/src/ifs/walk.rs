@@ -9,9 +9,10 @@ use super::exact::{Event, Line};
 use super::frame::CellRay;
 use super::leaf::{Leaf, Pass, Quick, slabs};
 use super::{System, Word, tag};
-use crate::{End, Flow, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
+use crate::{End, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
 use core::cell::Cell;
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::{RaySide, U};
 use std::collections::BinaryHeap;
 
@@ -103,14 +104,12 @@ pub(super) fn roots(system: &System, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
 
 impl Walk<'_, '_> {
     #[inline(always)]
-    fn run(mut self) -> Flow {
+    fn run(mut self) -> ControlFlow<()> {
         let system = self.line.system;
         let ray = CellRay::new(self.line.at);
         self.wait(&ray, f64::NEG_INFINITY, 0, 0);
         while let Some(next) = self.lists.waiting.pop() {
-            if self.show(next.lo) == Flow::Stop {
-                return Flow::Stop;
-            }
+            self.show(next.lo)?;
             if next.lo > self.end {
                 break;
             }
@@ -245,20 +244,18 @@ impl Walk<'_, '_> {
 
     /// Passes on what is final if nothing that waits begins before `until`.
     #[inline(always)]
-    fn show(&mut self, until: f64) -> Flow {
+    fn show(&mut self, until: f64) -> ControlFlow<()> {
         while let Some(&span) = self.lists.spans.first() {
             let is_final = span.to.pass.hi < until || until == f64::INFINITY;
             if !span.shown {
                 let is_known = span.from.pass.hi < until && span.from.pass.hi < span.to.pass.lo;
                 if !is_final && !is_known {
-                    return Flow::Continue;
+                    return ControlFlow::Continue(());
                 }
                 let touch = if is_known { None } else { self.line.compare(&span.from, &span.to) };
                 if touch == Some(Ordering::Equal) {
                     self.lists.spans.remove(0);
-                    if self.pass_on(&span.from, 0, RootKind::Grazing) == Flow::Stop {
-                        return Flow::Stop;
-                    }
+                    self.pass_on(&span.from, 0, RootKind::Grazing)?;
                     continue;
                 }
                 let kind = if span.doubtful || (!is_known && touch.is_none()) {
@@ -267,36 +264,32 @@ impl Walk<'_, '_> {
                     RootKind::Simple
                 };
                 self.lists.spans[0].shown = true;
-                if self.pass_on(&span.from, -1, kind) == Flow::Stop {
-                    return Flow::Stop;
-                }
+                self.pass_on(&span.from, -1, kind)?;
             }
             if !is_final {
-                return Flow::Continue;
+                return ControlFlow::Continue(());
             }
             self.lists.spans.remove(0);
             let kind = if span.doubtful { RootKind::Cluster } else { RootKind::Simple };
-            if self.pass_on(&span.to, 1, kind) == Flow::Stop {
-                return Flow::Stop;
-            }
+            self.pass_on(&span.to, 1, kind)?;
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 
     /// Passes on a crossing, if it is in the ray's range.
     #[inline(always)]
-    fn pass_on(&mut self, event: &Event, sign: i8, kind: RootKind) -> Flow {
+    fn pass_on(&mut self, event: &Event, sign: i8, kind: RootKind) -> ControlFlow<()> {
         let at = self.line.at;
         if event.pass.lo > self.end || event.pass.hi < self.begin {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let (mut lo, mut hi) = at.bracket(event.pass.lo, event.pass.hi);
         if at.admits(lo, hi) == Some(false) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let (near, far) = self.sink.range();
         if hi < near || lo > far {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let mut event = *event;
         let unit = (at.shift() + event.pass.s).abs().max(0.5);
@@ -312,9 +305,9 @@ impl Walk<'_, '_> {
             (lo, hi) = at.bracket(event.pass.lo, event.pass.hi);
         }
         match at.admits(lo, hi) {
-            Some(false) => return Flow::Continue,
+            Some(false) => return ControlFlow::Continue(()),
             Some(true) => {}
-            None if self.is_beyond(&event, (lo, hi), sign) => return Flow::Continue,
+            None if self.is_beyond(&event, (lo, hi), sign) => return ControlFlow::Continue(()),
             None => {}
         }
         let ray = at.local();

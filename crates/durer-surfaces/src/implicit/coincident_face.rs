@@ -15,9 +15,10 @@
 
 use super::line::BoundedLine;
 use super::root_isolator::{CertifiedFunction, Found};
+use crate::RootKind;
 use crate::quadric::boolean_faces::tangents;
 use crate::tape::Tape;
-use crate::{Flow, RootKind};
+use core::ops::ControlFlow;
 use durer_math::Vec3;
 
 /// The number of directions across the ray that are tried in half a turn.
@@ -82,20 +83,26 @@ pub(super) fn crossings(
     tape: &Tape,
     run: (f64, f64),
     ends: (bool, bool),
-    show: &mut dyn FnMut(&Found) -> Flow,
-) -> Option<Flow> {
+    show: &mut dyn FnMut(&Found) -> ControlFlow<()>,
+) -> Option<ControlFlow<()>> {
     let beside = Beside::new(line, tape, run)?;
     let mut known = FaceStretches { at: run.0, inside: ends.0, show };
     let mut looks = 0;
-    if beside.walk(run, line.ulp(), &mut looks, &mut known) == Flow::Stop {
-        return Some(Flow::Stop);
+    if beside.walk(run, line.ulp(), &mut looks, &mut known).is_break() {
+        return Some(ControlFlow::Break(()));
     }
     Some(known.take(run.1, run.1, ends.1))
 }
 
 impl Beside<'_> {
     /// Visits the stretches of a run whose state is certain, in ascending order.
-    fn walk(&self, (lo, hi): (f64, f64), ulp: f64, looks: &mut u32, known: &mut FaceStretches<'_>) -> Flow {
+    fn walk(
+        &self,
+        (lo, hi): (f64, f64),
+        ulp: f64,
+        looks: &mut u32,
+        known: &mut FaceStretches<'_>,
+    ) -> ControlFlow<()> {
         let node: [f64; 9] = core::array::from_fn(|i| match i {
             0 => lo,
             8 => hi,
@@ -110,13 +117,11 @@ impl Beside<'_> {
                 None if b[i] - a[i] > 4.0 * ulp && *looks < MOST_LOOKS => {
                     self.walk((a[i], b[i]), ulp, looks, known)
                 }
-                None => Flow::Continue,
+                None => ControlFlow::Continue(()),
             };
-            if flow == Flow::Stop {
-                return Flow::Stop;
-            }
+            flow?;
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }
 
@@ -125,16 +130,16 @@ struct FaceStretches<'a> {
     /// The end of the last certain stretch, and whether that is inside.
     at: f64,
     inside: bool,
-    show: &'a mut dyn FnMut(&Found) -> Flow,
+    show: &'a mut dyn FnMut(&Found) -> ControlFlow<()>,
 }
 
 impl FaceStretches<'_> {
     /// Takes the next certain stretch.
-    fn take(&mut self, a: f64, b: f64, inside: bool) -> Flow {
+    fn take(&mut self, a: f64, b: f64, inside: bool) -> ControlFlow<()> {
         let (from, was) = (self.at, self.inside);
         (self.at, self.inside) = (b, inside);
         if inside == was {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let (lo, hi) = (from.min(a), a);
         let sign = if inside { -1 } else { 1 };

@@ -1,7 +1,9 @@
 //! The container that bounds a formula's surface.
 
 use crate::packet::FilterSource;
-use crate::{AxisBox, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Sphere, Surface, SurfacePoint};
+use crate::{
+    Accelerate, AxisBox, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Sphere, Surface, SurfacePoint,
+};
 use durer_math::{Aabb, Affine};
 
 /// A box or a ball.

@@ -43,7 +43,10 @@ use crate::compose::clip::Algebraic;
 use crate::packet::{FilterSource, ImplicitKernel};
 use crate::roots::quadratic::Quadratic;
 use crate::tape::{Builder, Formula, FormulaError, Op, Powers, Tape};
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
 use octree::{CellLookup, Cells};
 use std::sync::{Arc, OnceLock};
@@ -159,16 +162,8 @@ impl Isosurface {
 }
 
 impl Surface for Isosurface {
-    fn name(&self) -> &'static str {
-        "isosurface"
-    }
-
     fn bounds(&self) -> Aabb {
         self.container.bounds()
-    }
-
-    fn bounds_through(&self, map: &durer_math::Affine) -> Aabb {
-        self.container.bounds_through(map)
     }
 
     #[inline(always)]
@@ -178,21 +173,6 @@ impl Surface for Isosurface {
 
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         self.point(ray, root, need)
-    }
-
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        let level: Arc<dyn ImplicitKernel> = match (&self.gauge, &self.dented) {
-            (Some(gauge), _) => Arc::new(gauge.clone()),
-            (None, Some(gauge)) => Arc::new(Star::new(gauge, self)),
-            (None, None) => {
-                return FilterSource::contained(
-                    self.container.packet_filter(),
-                    Arc::new(self.clone()),
-                    Point3::ORIGIN,
-                );
-            }
-        };
-        FilterSource::level(self.bounds(), level, Point3::ORIGIN)
     }
 
     fn solidity(&self) -> Solidity {
@@ -229,6 +209,31 @@ impl Surface for Isosurface {
         } else {
             Side::On
         }
+    }
+}
+
+impl Accelerate for Isosurface {
+    fn name(&self) -> &'static str {
+        "isosurface"
+    }
+
+    fn bounds_through(&self, map: &durer_math::Affine) -> Aabb {
+        self.container.bounds_through(map)
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        let level: Arc<dyn ImplicitKernel> = match (&self.gauge, &self.dented) {
+            (Some(gauge), _) => Arc::new(gauge.clone()),
+            (None, Some(gauge)) => Arc::new(Star::new(gauge, self)),
+            (None, None) => {
+                return FilterSource::contained(
+                    self.container.packet_filter(),
+                    Arc::new(self.clone()),
+                    Point3::ORIGIN,
+                );
+            }
+        };
+        FilterSource::level(self.bounds(), level, Point3::ORIGIN)
     }
 }
 

@@ -9,8 +9,9 @@ use super::octree::CellLookup;
 use super::polynomial::isolate_powers;
 use super::root_isolator::{CertifiedFunction, Found, RootIsolator, SignInfo};
 use super::superellipsoid_convex::Answer;
-use crate::{CentredRay, Flow, LocalRay, Root, RootKind, Sink};
+use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use durer_math::RaySide;
 
 /// The container's crossings, at most two, or the one point in which a line touches it.
@@ -22,8 +23,8 @@ impl Sink for Caps {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    fn push(&mut self, root: Root) -> Flow {
-        if self.0.try_push(root).is_err() { Flow::Stop } else { Flow::Continue }
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
+        if self.0.try_push(root).is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -45,7 +46,7 @@ impl Sink for Held<'_> {
         self.sink.limit()
     }
 
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         let t = root.t.max(self.from).min(self.to);
         self.sink.push(Root { t, lo: root.lo.min(t), hi: root.hi.max(t), ..root })
     }
@@ -70,7 +71,7 @@ impl Isosurface {
         let ends = ray.rough.then(|| at.ends((ray.t_min, ray.t_max)));
         let mut tracker = RootIsolator::new(&line, &self.tape, Some(true), ends);
         let mut passes = 0;
-        let mut show = |found: Option<Found>| found.is_none_or(|it| shown(&at, sink, &it) == Flow::Continue);
+        let mut show = |found: Option<Found>| found.is_none_or(|it| shown(&at, sink, &it).is_continue());
         let told = isolate(&line, &self.tape, (lo, hi), &mut passes, &mut |a, b, verdict| {
             show(tracker.take(a, b, verdict, &self.tape))
         });
@@ -146,14 +147,20 @@ impl Isosurface {
     }
 
     /// Passes on a crossing of the container, or a touch, if it is in the ray's range.
-    fn cap(&self, ray: &LocalRay<'_>, cap: &Root, sink: &mut dyn Sink) -> Flow {
+    fn cap(&self, ray: &LocalRay<'_>, cap: &Root, sink: &mut dyn Sink) -> ControlFlow<()> {
         self.cap_or_rim(ray, cap, (f64::INFINITY, f64::NEG_INFINITY), sink)
     }
 
     /// Passes on a crossing of the container in a bracket that also holds a stretch beside it.
-    fn cap_or_rim(&self, ray: &LocalRay<'_>, cap: &Root, beside: (f64, f64), sink: &mut dyn Sink) -> Flow {
+    fn cap_or_rim(
+        &self,
+        ray: &LocalRay<'_>,
+        cap: &Root,
+        beside: (f64, f64),
+        sink: &mut dyn Sink,
+    ) -> ControlFlow<()> {
         if self.open {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         let mut own = *ray;
         if own.source_face == 0 {
@@ -168,7 +175,7 @@ impl Isosurface {
                 let (lo, hi) = (root.lo.min(beside.0), root.hi.max(beside.1));
                 sink.push(Root { lo, hi, face: root.face + 1, kind: cap.kind, ..*root })
             }
-            None => Flow::Continue,
+            None => ControlFlow::Continue(()),
         }
     }
 
@@ -220,7 +227,7 @@ impl Query<'_> {
             _ => self.start(entry.1, entry.2),
         };
         let enters = !within && !start.before && start.rim.is_none();
-        if enters && self.surface.cap(self.ray, &entry.0, self.sink) == Flow::Stop {
+        if enters && self.surface.cap(self.ray, &entry.0, self.sink).is_break() {
             return;
         }
         let slack = 16.0 * self.line.ulp;
@@ -240,7 +247,7 @@ impl Query<'_> {
             None => Some(self.declared(end.0, end.1)),
         };
         if after == Some(false) {
-            self.surface.cap(self.ray, &exit.0, self.sink);
+            let _ = self.surface.cap(self.ray, &exit.0, self.sink);
         }
     }
 
@@ -407,16 +414,16 @@ impl<'a> Walk<'a, '_> {
     fn show(&mut self, found: Option<Found>) -> bool {
         let rim = if found.is_some() { self.rim.take() } else { None };
         let flow = match found {
-            None => Flow::Continue,
+            None => ControlFlow::Continue(()),
             Some(found) if rim.is_some() && found.sign != 0 => match rim.flatten() {
                 Some(cap) => self.show_rim(cap, &found),
-                None => Flow::Continue,
+                None => ControlFlow::Continue(()),
             },
             Some(Found { touches: Some(outside), lo, hi, .. }) if self.surface.regular => {
                 if outside {
                     self.along_a_face(lo, hi)
                 } else {
-                    Flow::Continue
+                    ControlFlow::Continue(())
                 }
             }
             // What is left when the passes are used up may be much longer than the unresolved part.
@@ -425,14 +432,14 @@ impl<'a> Walk<'a, '_> {
             }
             Some(found) => shown(self.at, self.sink, &found),
         };
-        flow == Flow::Continue
+        flow.is_continue()
     }
 
     /// A crossing at a rim, by the container's face or right beside it: one crossing, reported as
     /// the container's.
     #[cold]
     #[inline(never)]
-    fn show_rim(&mut self, cap: &Root, found: &Found) -> Flow {
+    fn show_rim(&mut self, cap: &Root, found: &Found) -> ControlFlow<()> {
         let (lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
         let ray = self.at.local();
         let lo = if ray.source.is_some() && ray.t_min == 0.0 { lo.max(0.0) } else { lo };
@@ -441,7 +448,7 @@ impl<'a> Walk<'a, '_> {
 
     #[cold]
     #[inline(never)]
-    fn along_a_face(&mut self, lo: f64, hi: f64) -> Flow {
+    fn along_a_face(&mut self, lo: f64, hi: f64) -> ControlFlow<()> {
         let (at, sink) = (self.at, &mut *self.sink);
         let told = coincident_face::crossings(
             self.line,
@@ -450,15 +457,15 @@ impl<'a> Walk<'a, '_> {
             (false, false),
             &mut |found| shown(at, sink, found),
         );
-        told.unwrap_or(Flow::Continue)
+        told.unwrap_or(ControlFlow::Continue(()))
     }
 }
 
 /// Passes on a root of the formula, unless it is certainly out of the ray's range.
-pub(super) fn shown(at: &CentredRay<'_>, sink: &mut dyn Sink, found: &Found) -> Flow {
+pub(super) fn shown(at: &CentredRay<'_>, sink: &mut dyn Sink, found: &Found) -> ControlFlow<()> {
     let (mut lo, hi) = at.bracket(found.lo.next_down(), found.hi.next_up());
     if at.admits(lo, hi) == Some(false) {
-        return Flow::Continue;
+        return ControlFlow::Continue(());
     }
     let ray = at.local();
     if ray.source.is_some() && ray.t_min == 0.0 && ray.source_face == 0 {

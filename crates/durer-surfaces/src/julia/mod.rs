@@ -35,7 +35,10 @@ mod tests;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
 use durer_math::{Aabb, Affine, Dyadic, Interval, Point3, Vec3, elementary};
 use embed::Lift;
 use orbit::{Rule, TINY};
@@ -232,20 +235,9 @@ fn least_ball(set: &Julia, most: f64, size: f64) -> f64 {
 }
 
 impl Surface for JuliaSet {
-    fn name(&self) -> &'static str {
-        "Julia set"
-    }
-
     fn bounds(&self) -> Aabb {
         let radius = self.radius();
         Aabb::centred(Point3::ORIGIN, Vec3::new(radius, radius, radius))
-    }
-
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        match crate::Sphere::new(Point3::ORIGIN, self.radius()) {
-            Ok(ball) => ball.bounds_through(map),
-            Err(_) => map.bounds(&self.bounds()),
-        }
     }
 
     #[inline(always)]
@@ -262,13 +254,6 @@ impl Surface for JuliaSet {
         }
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        match &*self.0 {
-            Algebra::Quaternion(set) => set.packet_filter(self.bounds()),
-            Algebra::Hypercomplex(set) => set.packet_filter(self.bounds()),
-        }
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
@@ -277,6 +262,26 @@ impl Surface for JuliaSet {
         match &*self.0 {
             Algebra::Quaternion(set) => set.side(point),
             Algebra::Hypercomplex(set) => set.side(point),
+        }
+    }
+}
+
+impl Accelerate for JuliaSet {
+    fn name(&self) -> &'static str {
+        "Julia set"
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        match crate::Sphere::new(Point3::ORIGIN, self.radius()) {
+            Ok(ball) => ball.bounds_through(map),
+            Err(_) => map.bounds(&self.bounds()),
+        }
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        match &*self.0 {
+            Algebra::Quaternion(set) => set.packet_filter(self.bounds()),
+            Algebra::Hypercomplex(set) => set.packet_filter(self.bounds()),
         }
     }
 }

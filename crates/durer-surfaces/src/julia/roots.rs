@@ -3,7 +3,8 @@
 use super::Solid;
 use super::embed::EmbeddedLine;
 use crate::implicit::{CertifiedFunction, Found, RootIsolator, SignInfo};
-use crate::{CentredRay, Flow, LocalRay, Root, Sink};
+use crate::{CentredRay, LocalRay, Root, Sink};
+use core::ops::ControlFlow;
 use durer_math::{Isa, Point3, RaySide};
 
 /// After this many passes over eight stretches for one ray the rest counts as unresolved, so the
@@ -50,10 +51,10 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         let tracker = RootIsolator::new(&line, (), before, ends);
         let mut query = Query { line: &line, ray, at: &at, sink, last: to, tracker, passes: 0 };
         if a < last
-            && query.isolate(a, last) == Flow::Continue
+            && query.isolate(a, last).is_continue()
             && let Some(found) = query.tracker.finish(Some(true))
         {
-            query.show(&found);
+            let _ = query.show(&found);
         }
     }
 
@@ -76,7 +77,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
 
 impl<const M: usize, const C: usize> Query<'_, M, C> {
     /// Classifies the stretch from `lo` to `hi`, and passes on the roots on it that are complete.
-    fn isolate(&mut self, lo: f64, hi: f64) -> Flow {
+    fn isolate(&mut self, lo: f64, hi: f64) -> ControlFlow<()> {
         let node: [f64; 9] = core::array::from_fn(|i| match i {
             0 => lo,
             8 => hi,
@@ -113,28 +114,26 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
                 () if known.falls.lane(i) => SignInfo::Monotone(false),
                 () if murky >> i & 1 == 1 => SignInfo::Unresolved,
                 () => {
-                    if self.isolate(a[i], b[i]) == Flow::Stop {
-                        return Flow::Stop;
-                    }
+                    self.isolate(a[i], b[i])?;
                     continue;
                 }
             };
             let found = self.tracker.take(a[i], b[i], verdict, ());
             if let Some(found) = found
-                && self.show(&found) == Flow::Stop
+                && self.show(&found).is_break()
             {
-                return Flow::Stop;
+                return ControlFlow::Break(());
             }
             if self.tracker.is_idle() && b[i] > self.last {
-                return Flow::Stop;
+                return ControlFlow::Break(());
             }
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 
     /// Passes on a root, unless it is certainly out of the ray's range.
     #[inline(never)]
-    fn show(&mut self, found: &Found) -> Flow {
+    fn show(&mut self, found: &Found) -> ControlFlow<()> {
         Isa::detect().run(
             #[inline(always)]
             || self.show_here(found),
@@ -142,10 +141,10 @@ impl<const M: usize, const C: usize> Query<'_, M, C> {
     }
 
     #[inline(always)]
-    fn show_here(&mut self, found: &Found) -> Flow {
+    fn show_here(&mut self, found: &Found) -> ControlFlow<()> {
         let (mut lo, hi) = self.at.bracket(found.lo.next_down(), found.hi.next_up());
         if self.at.admits(lo, hi) == Some(false) {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         if self.ray.source.is_some() && self.ray.t_min == 0.0 {
             lo = lo.max(0.0).min(hi);

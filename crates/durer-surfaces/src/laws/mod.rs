@@ -3,7 +3,8 @@
 //!
 //! To test a surface, give an [`Oracle`] (its exact description, usually an [`ExactBody`]), a few
 //! [`Feature`]s at which rays are aimed, and call [`check_many`] once. Oracles are exact: they use
-//! big integers and share no code with the kernels.
+//! big integers and share no code with the kernels. A surface without one, such as that of a
+//! formula, is held to the laws that need none: [`check_alone`].
 
 pub mod exact;
 pub mod exact_polynomial;
@@ -17,7 +18,7 @@ pub use real_root::{RealRoot, ZeroOracle, real_roots};
 pub use test_rng::{Feature, TestRng, aim};
 
 use crate::{
-    All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,
+    Accelerate, All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
@@ -71,6 +72,35 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
         let far = ray.at(root.t).to_vec().max_abs() > oracle.size() * durer_math::scale::ldexp(1.0, 450);
         if root.kind != RootKind::Cluster && !far {
             points_are_within_their_bounds(surface, oracle, ray, root)?;
+        }
+    }
+    Ok(roots)
+}
+
+/// Tests the laws that need no oracle: roots ascend and lie in their brackets, which reach into the
+/// ray's range, all queries agree, points are well formed, and a ray that leaves a solid's surface starts
+/// on the requested side. At an edge that is the side of one face, and not of the solid, so rays
+/// should not aim at edges exactly. Returns the roots.
+pub fn check_alone(surface: &dyn TestSurface, ray: &Ray) -> Result<Vec<Root>, Broken> {
+    let roots = all_roots(surface, ray);
+    for root in &roots {
+        ensure!(root.lo <= root.t && root.t <= root.hi, "t is not in its bracket: {root:?}");
+        ensure!(ray.t_min <= root.hi && root.lo <= ray.t_max, "a root is not in the range: {root:?}");
+    }
+    for pair in roots.windows(2) {
+        ensure!(pair[0].t <= pair[1].t, "roots do not ascend: {pair:?}");
+    }
+    closest_is_the_first_of_all(surface, ray, &roots)?;
+    for root in roots.iter().filter(|root| root.kind == RootKind::Simple) {
+        let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);
+        is_well_formed(&point)?;
+        if surface.solidity() == Solidity::Open {
+            continue;
+        }
+        for (from, side) in [(RaySide::Front, Side::Out), (RaySide::Back, Side::In)] {
+            let start = point.spawn_from(from, ray.direction).origin;
+            let found = surface.side(&LocalPoint::new(start));
+            ensure!(found == side, "a ray from {from:?} starts {found:?}: {point:?}");
         }
     }
     Ok(roots)
@@ -221,7 +251,10 @@ pub fn roots_are_the_exact_crossings(
 
 /// The parts of a surface have the roots of the whole, each within the part's box. Returns how many
 /// parts were tested and how many roots they have.
-pub fn parts_are_the_whole<S: TestSurface>(surface: &S, ray: &Ray) -> Result<(usize, usize), Broken> {
+pub fn parts_are_the_whole<S: TestSurface + Accelerate>(
+    surface: &S,
+    ray: &Ray,
+) -> Result<(usize, usize), Broken> {
     let local = LocalRay::new(ray);
     let (mut sink, mut parts, mut astray) = (All::default(), 0, None);
     surface.parts(&mut |bounds, part| {

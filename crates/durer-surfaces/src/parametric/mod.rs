@@ -49,7 +49,7 @@ mod sweep_maps;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::tape::{Formula, FormulaError, VectorTape};
-use crate::{Container, Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
+use crate::{Accelerate, Container, Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use bounds::Bounds;
 use build::Refused;
 use durer_math::Aabb;
@@ -196,10 +196,6 @@ impl PartialEq for Parametric {
 }
 
 impl Surface for Parametric {
-    fn name(&self) -> &'static str {
-        "parametric surface"
-    }
-
     fn bounds(&self) -> Aabb {
         self.sheet.bounds
     }
@@ -214,6 +210,12 @@ impl Surface for Parametric {
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, _need: Need) -> SurfacePoint {
         self.sheet.point(ray, root)
+    }
+}
+
+impl Accelerate for Parametric {
+    fn name(&self) -> &'static str {
+        "parametric surface"
     }
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {

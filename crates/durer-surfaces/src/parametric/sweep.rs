@@ -33,7 +33,8 @@ use crate::packet::FilterSource;
 use crate::prism::curved::Bezier;
 use crate::tape::FormulaError;
 use crate::{
-    Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use durer_math::{Aabb, Ray, Vec3};
 use std::sync::Arc;
@@ -310,10 +311,6 @@ impl PartialEq for PathSweep {
 }
 
 impl Surface for PathSweep {
-    fn name(&self) -> &'static str {
-        "sweep"
-    }
-
     fn bounds(&self) -> Aabb {
         self.sheet.bounds
     }
@@ -369,6 +366,12 @@ impl Surface for PathSweep {
             }
         });
         side
+    }
+}
+
+impl Accelerate for PathSweep {
+    fn name(&self) -> &'static str {
+        "sweep"
     }
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {

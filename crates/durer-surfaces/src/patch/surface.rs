@@ -23,14 +23,10 @@ pub(super) trait Patches {
     }
 }
 
-/// Implements [`Surface`](crate::Surface) by [`Patches`].
+/// Implements [`Surface`](crate::Surface) and [`Accelerate`](crate::Accelerate) by [`Patches`].
 macro_rules! surface_of_patches {
     ($type:ty) => {
         impl crate::Surface for $type {
-            fn name(&self) -> &'static str {
-                <Self as $crate::patch::surface::Patches>::NAME
-            }
-
             fn bounds(&self) -> durer_math::Aabb {
                 self.shell().bounds
             }
@@ -60,6 +56,12 @@ macro_rules! surface_of_patches {
 
             fn side(&self, point: &crate::LocalPoint<'_>) -> crate::Side {
                 <Self as $crate::patch::surface::Patches>::side(self, point)
+            }
+        }
+
+        impl crate::Accelerate for $type {
+            fn name(&self) -> &'static str {
+                <Self as $crate::patch::surface::Patches>::NAME
             }
 
             fn packet_filter(&self, _part: crate::PartId) -> crate::packet::FilterSource {

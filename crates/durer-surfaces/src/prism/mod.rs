@@ -30,8 +30,8 @@ use crate::mesh::{Sorted, may_hold};
 use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::{
-    FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, RingRay, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, RingRay, Root, Side,
+    Sink, Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -395,10 +395,6 @@ fn root(probe: &Probe<'_>, crossing: &Crossing, face: u32, wall: f64, turned: bo
 }
 
 impl Surface for Prism {
-    fn name(&self) -> &'static str {
-        "prism"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -466,6 +462,59 @@ impl Surface for Prism {
         SurfacePoint { ng: -point.ng, ns: -point.ns, dndu: -point.dndu, dndv: -point.dndv, ..point }
     }
 
+    fn solidity(&self) -> Solidity {
+        if self.open { Solidity::Open } else { Solidity::Solid }
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        if self.open {
+            return Side::Out;
+        }
+        let (centre, size) = self.view();
+        let scale = exponent(size) + 1;
+        let line = PointLine::new(point, Vec3::Y, centre, scale);
+        let filter = EdgeFilter::new(&line);
+        let mut odd = false;
+        for Wall { facet, .. } in &self.walls {
+            let plane = ThreePoints { points: *facet, centre, scale };
+            if may_hold(facet, point)
+                // The side is open only for an inexact point.
+                && line.side_of(&plane).is_none_or(Ordering::is_eq)
+                && facet::holds_start(&line, facet)
+            {
+                return Side::On;
+            }
+            // The wall is ahead of the point if the point lies above the plane and the line goes
+            // down, or below and up; no line crosses a wall along y.
+            if let Some(passed) = facet::passes(&line, &filter, facet)
+                && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
+            {
+                odd = !odd;
+            }
+        }
+        for Cap { polygon, turned, face } in &self.caps {
+            let plane = ThreePoints { points: polygon.spanning(), centre, scale };
+            // The rims belong to the walls, which have been tested.
+            if !polygon.holds(&line) {
+                continue;
+            }
+            // Above the plane, as y grows.
+            let up = *turned != (*face == 2);
+            match line.side_of(&plane) {
+                Some(Ordering::Equal) | None => return Side::On,
+                Some(height) if (height == Ordering::Greater) != up => odd = !odd,
+                Some(_) => {}
+            }
+        }
+        if odd { Side::In } else { Side::Out }
+    }
+}
+
+impl Accelerate for Prism {
+    fn name(&self) -> &'static str {
+        "prism"
+    }
+
     #[inline(always)]
     fn is_in_parts(&self) -> bool {
         !self.tangled
@@ -530,53 +579,6 @@ impl Surface for Prism {
             None => {}
         }
         roots.pour(sink);
-    }
-
-    fn solidity(&self) -> Solidity {
-        if self.open { Solidity::Open } else { Solidity::Solid }
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        if self.open {
-            return Side::Out;
-        }
-        let (centre, size) = self.view();
-        let scale = exponent(size) + 1;
-        let line = PointLine::new(point, Vec3::Y, centre, scale);
-        let filter = EdgeFilter::new(&line);
-        let mut odd = false;
-        for Wall { facet, .. } in &self.walls {
-            let plane = ThreePoints { points: *facet, centre, scale };
-            if may_hold(facet, point)
-                // The side is open only for an inexact point.
-                && line.side_of(&plane).is_none_or(Ordering::is_eq)
-                && facet::holds_start(&line, facet)
-            {
-                return Side::On;
-            }
-            // The wall is ahead of the point if the point lies above the plane and the line goes
-            // down, or below and up; no line crosses a wall along y.
-            if let Some(passed) = facet::passes(&line, &filter, facet)
-                && line.side_of(&plane).is_some_and(|height| height as i8 == passed.side)
-            {
-                odd = !odd;
-            }
-        }
-        for Cap { polygon, turned, face } in &self.caps {
-            let plane = ThreePoints { points: polygon.spanning(), centre, scale };
-            // The rims belong to the walls, which have been tested.
-            if !polygon.holds(&line) {
-                continue;
-            }
-            // Above the plane, as y grows.
-            let up = *turned != (*face == 2);
-            match line.side_of(&plane) {
-                Some(Ordering::Equal) | None => return Side::On,
-                Some(height) if (height == Ordering::Greater) != up => odd = !odd,
-                Some(_) => {}
-            }
-        }
-        if odd { Side::In } else { Side::Out }
     }
 }
 

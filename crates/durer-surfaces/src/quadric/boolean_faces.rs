@@ -18,10 +18,11 @@ use crate::roots::quadratic::{
     Crossing, Limits, LineRoots, NARROW, Quadratic, SignedEnclosure, admit, compare_roots, exact_sign,
     locate, locate_exact, sign_at_root, slope_at_root, solve,
 };
-use crate::{CentredRay, End, Flow, LocalPoint, RingRay, Root, RootKind, Side, Sink};
+use crate::{CentredRay, End, LocalPoint, RingRay, Root, RootKind, Side, Sink};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
+use core::ops::ControlFlow;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
 
 /// The most faces a shape can have.
@@ -76,7 +77,7 @@ pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
 
 /// A solid with quadric faces: the methods that its author writes. Everything else follows.
 pub trait QuadricFaces: Send + Sync {
-    /// See [`Surface::name`](crate::Surface::name).
+    /// See [`Accelerate::name`](crate::Accelerate::name).
     fn name(&self) -> &'static str {
         "quadric"
     }
@@ -458,7 +459,12 @@ impl View<'_> {
 
     /// Pushes events that are in the ray's closed range.
     #[inline(always)]
-    pub(crate) fn push<K: Sink + ?Sized>(&self, events: &Events, ray: &CentredRay<'_>, sink: &mut K) -> Flow {
+    pub(crate) fn push<K: Sink + ?Sized>(
+        &self,
+        events: &Events,
+        ray: &CentredRay<'_>,
+        sink: &mut K,
+    ) -> ControlFlow<()> {
         let mut least = f64::NEG_INFINITY;
         for event in events {
             let (lo, hi) = ray.bracket(event.lo, event.hi);
@@ -488,11 +494,9 @@ impl View<'_> {
                 sign: event.sign,
                 kind: event.kind,
             };
-            if sink.push(root) == Flow::Stop {
-                return Flow::Stop;
-            }
+            sink.push(root)?;
         }
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 
     /// Whether a crossing whose bracket straddles an end of the range is in the range.

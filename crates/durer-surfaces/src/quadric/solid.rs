@@ -3,7 +3,9 @@
 use crate::packet::FilterSource;
 use crate::quadric::boolean_faces::{Frame, QuadricFaces, View, rounded};
 use crate::quadric::form::Rounded;
-use crate::{LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3};
 
@@ -38,16 +40,8 @@ impl<S: QuadricFaces> QuadricSolid<S> {
 }
 
 impl<S: QuadricFaces> Surface for QuadricSolid<S> {
-    fn name(&self) -> &'static str {
-        self.shape.name()
-    }
-
     fn bounds(&self) -> Aabb {
         self.shape.bounds()
-    }
-
-    fn bounds_through(&self, map: &Affine) -> Aabb {
-        self.shape.bounds_through(map)
     }
 
     #[inline(always)]
@@ -63,16 +57,26 @@ impl<S: QuadricFaces> Surface for QuadricSolid<S> {
         self.view().resolve(ray, root, need)
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::of_shape(&self.shape)
-    }
-
     fn solidity(&self) -> Solidity {
         if self.shape.walls() < self.shape.faces() { Solidity::Open } else { Solidity::Solid }
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.solidity() == Solidity::Open { Side::Out } else { self.view().side(point) }
+    }
+}
+
+impl<S: QuadricFaces> Accelerate for QuadricSolid<S> {
+    fn name(&self) -> &'static str {
+        self.shape.name()
+    }
+
+    fn bounds_through(&self, map: &Affine) -> Aabb {
+        self.shape.bounds_through(map)
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::of_shape(&self.shape)
     }
 }
 
@@ -92,7 +96,7 @@ impl View<'_> {
             || {
                 let ray = ray.recentre(self.frame.centre, self.frame.scale);
                 let events = self.events(&ray, sink.range());
-                self.push(&events, &ray, sink);
+                let _ = self.push(&events, &ray, sink);
             },
         );
     }

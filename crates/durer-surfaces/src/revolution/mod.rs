@@ -27,10 +27,11 @@ use crate::polynomial_surface;
 use crate::quadric::boolean_faces::Frame;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Algebraic, CentredRay, Flow, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
-    Surface, SurfacePoint,
+    Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
+    Solidity, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, U, Vec3};
@@ -261,7 +262,7 @@ impl SurfaceOfRevolution {
         let wall = (0..self.walls.len())
             .filter(|&w| w == i || w + 1 == i)
             .find(|&w| self.meets(w, i, probe, crossing));
-        match wall {
+        let _ = match wall {
             Some(w) if face == 0 => out.push(Root { tag: [w as f64, 0.0], ..root }),
             _ => out.push(root),
         };
@@ -398,11 +399,11 @@ struct Out<'k> {
 }
 
 impl Out<'_> {
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         let t = root.t.max(self.least);
         self.least = t;
         let flow = self.sink.push(Root { t, hi: root.hi.max(t), ..root });
-        self.stopped = flow == Flow::Stop;
+        self.stopped = flow.is_break();
         flow
     }
 }
@@ -419,20 +420,16 @@ impl Sink for Keeping<'_, '_> {
         self.out.sink.range()
     }
 
-    fn push(&mut self, root: Root) -> Flow {
+    fn push(&mut self, root: Root) -> ControlFlow<()> {
         if (self.keeps)(&root) {
             self.out.push(Root { tag: [self.wall as f64, 0.0], ..root })
         } else {
-            Flow::Continue
+            ControlFlow::Continue(())
         }
     }
 }
 
 impl Surface for SurfaceOfRevolution {
-    fn name(&self) -> &'static str {
-        "surface of revolution"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -469,21 +466,6 @@ impl Surface for SurfaceOfRevolution {
         point
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        let walls = self.walls.iter().zip(&self.widths);
-        let reach = self.widths.iter().copied().fold(0.0, f64::max);
-        // A wall that is almost a line is treated as a wider one.
-        let walls: Option<Vec<_>> =
-            walls.map(|(wall, &width)| wall.for_lanes(width.max(reach * pow2(-10)))).collect();
-        match walls {
-            Some(walls) => {
-                let lathe = RevolutionKernel::new(&walls, !self.open);
-                FilterSource::lathe(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
-            }
-            None => FilterSource::vague(self.bounds),
-        }
-    }
-
     fn solidity(&self) -> Solidity {
         if self.open { Solidity::Open } else { Solidity::Solid }
     }
@@ -509,6 +491,27 @@ impl Surface for SurfaceOfRevolution {
         }
         let lower = if i == 0 { Side::Out } else { side(i - 1) };
         if upper == lower { upper } else { Side::On }
+    }
+}
+
+impl Accelerate for SurfaceOfRevolution {
+    fn name(&self) -> &'static str {
+        "surface of revolution"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        let walls = self.walls.iter().zip(&self.widths);
+        let reach = self.widths.iter().copied().fold(0.0, f64::max);
+        // A wall that is almost a line is treated as a wider one.
+        let walls: Option<Vec<_>> =
+            walls.map(|(wall, &width)| wall.for_lanes(width.max(reach * pow2(-10)))).collect();
+        match walls {
+            Some(walls) => {
+                let lathe = RevolutionKernel::new(&walls, !self.open);
+                FilterSource::lathe(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
+            }
+            None => FilterSource::vague(self.bounds),
+        }
     }
 }
 

@@ -17,13 +17,13 @@
 //! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked
 //! at as `σ = 1 / s`.
 
-use crate::Flow;
 use crate::roots::bernstein::{Bernstein, Count, FLOOR};
 use crate::roots::exact::{ExactRoots, Isolated};
 use crate::roots::quadratic::Limits;
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
+use core::ops::ControlFlow;
 use durer_math::efloat::Word;
 use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
 
@@ -290,8 +290,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         from: f64,
         cut: bool,
         skips: impl Fn(f64, f64) -> bool,
-        mut visit: impl FnMut(&BernsteinPart<T, N>, bool) -> Result<Flow, Doubt>,
-    ) -> Result<Flow, Doubt> {
+        mut visit: impl FnMut(&BernsteinPart<T, N>, bool) -> Result<ControlFlow<()>, Doubt>,
+    ) -> Result<ControlFlow<()>, Doubt> {
         let slack = self.slack();
         let whole = BernsteinPart { form: Bernstein::new(&self.c, slack), l: from, r: 1.0, bits: 0 };
         let mut open = ArrayVec::<BernsteinPart<T, N>, 64>::new();
@@ -301,8 +301,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             match node.form.count() {
                 Count::None => continue,
                 count @ (Count::Rise | Count::Fall) if !across_cut => {
-                    if !skips(node.l, node.r) && visit(&node, count == Count::Rise)? == Flow::Stop {
-                        return Ok(Flow::Stop);
+                    if !skips(node.l, node.r) && visit(&node, count == Count::Rise)?.is_break() {
+                        return Ok(ControlFlow::Break(()));
                     }
                     continue;
                 }
@@ -325,7 +325,7 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             open.push(BernsteinPart { form: right, l: m, r: node.r, bits });
             open.push(BernsteinPart { form: left, l: node.l, r: m, bits });
         }
-        Ok(Flow::Continue)
+        Ok(ControlFlow::Continue(()))
     }
 }
 
@@ -393,7 +393,7 @@ pub(crate) fn solve<const N: usize, L: Along<N>>(
     line: &L,
     stretch: Stretch,
     limits: &Limits,
-    emit: impl FnMut(&Found<'_>) -> Flow,
+    emit: impl FnMut(&Found<'_>) -> ControlFlow<()>,
 ) {
     let a = line.double();
     match stretch {
@@ -413,7 +413,7 @@ pub(crate) fn solve<const N: usize, L: Along<N>>(
     }
 }
 
-impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N> {
+impl<L: Along<N>, F: FnMut(&Found<'_>) -> ControlFlow<()>, const N: usize> Work<'_, L, F, N> {
     #[inline(always)]
     fn within(&mut self, scaled: &Scaled<f64, N>, mid: f64, half: f64) {
         let place = PartToLine::Linear { mid, half };
@@ -441,7 +441,11 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
 
     /// In f64, on a stretch from its start.
     #[inline(always)]
-    fn settle_double(&mut self, scaled: &Scaled<f64, N>, place: PartToLine) -> Result<Flow, Doubt> {
+    fn settle_double(
+        &mut self,
+        scaled: &Scaled<f64, N>,
+        place: PartToLine,
+    ) -> Result<ControlFlow<()>, Doubt> {
         let (limits, emit) = (self.limits, &mut self.emit);
         scaled.walk(
             -1.0,
@@ -484,7 +488,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
         scaled: &Scaled<T, N>,
         from: f64,
         place: PartToLine,
-    ) -> Result<Flow, Dyadic> {
+    ) -> Result<ControlFlow<()>, Dyadic> {
         let (limits, emit) = (self.limits, &mut self.emit);
         let part = if from > -1.0 { scaled.from(from) } else { *scaled };
         let walked = part.walk(
@@ -522,19 +526,19 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             return;
         };
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.1 <= 0.0) {
-            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)) == Flow::Stop {
+            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)).is_break() {
                 return;
             }
         }
         let place = PartToLine::Linear { mid: 0.0, half: 1.0 };
         match self.settle_double(scaled, place) {
-            Ok(Flow::Stop) => return,
-            Ok(Flow::Continue) => {}
+            Ok(ControlFlow::Break(())) => return,
+            Ok(ControlFlow::Continue(())) => {}
             Err(Doubt(x)) => {
                 let wide = self.line.wide().map(|a| Scaled::new(&a, 1.0));
                 match wide.map_or_else(|| Err(Dyadic::from(x)), |wide| self.settle(&wide, x, place)) {
-                    Ok(Flow::Stop) => return,
-                    Ok(Flow::Continue) => {}
+                    Ok(ControlFlow::Break(())) => return,
+                    Ok(ControlFlow::Continue(())) => {}
                     Err(x) => {
                         self.exactly(0.0, x, f64::MAX);
                         return;
@@ -543,7 +547,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             }
         }
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.0 >= 0.0) {
-            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)) == Flow::Stop {
+            if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)).is_break() {
                 return;
             }
         }
@@ -575,7 +579,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
                 // falls as s rises.
                 let turned = ends.1 <= 0.0 && scaled.degree % 2 == 1;
                 out.push((ends, found, rising == turned));
-                Ok(Flow::Continue)
+                Ok(ControlFlow::Continue(()))
             },
         );
         walked.is_ok().then_some(out)
@@ -601,7 +605,7 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> Flow, const N: usize> Work<'_, L, F, N
             let s = if lo == hi { lo } else { (lo + 0.5 * (hi - lo)).clamp(lo, hi) };
             let exact = Some((&exact, &root));
             let found = Found { s, lo, hi, alone, before, after, certain, exact };
-            if (self.emit)(&found) == Flow::Stop {
+            if (self.emit)(&found).is_break() {
                 return;
             }
         }

@@ -311,7 +311,11 @@ pub(super) fn unite<const K: usize, const M: usize>(
     certain
 }
 
-/// Where an end of the range lies relative to a span, by its number; `None` if that is not known.
+/// A step along the line, in units: far less than the ends of a span are apart.
+const STEP: f64 = durer_math::scale::pow2(-300);
+
+/// Where an end of the range, moved by some steps, lies relative to a span, by its number; `None`
+/// if that is not known.
 #[cold]
 #[inline(never)]
 pub(super) fn place_of_end<const K: usize, const M: usize>(
@@ -320,10 +324,10 @@ pub(super) fn place_of_end<const K: usize, const M: usize>(
     at: &CentredRay<'_>,
     numbers: &[u32],
     widths: &Widths,
-    (span, end): (usize, End),
+    (span, end, steps): (usize, End, f64),
 ) -> Option<Ordering> {
     let Groups { pieces, groups, certain } = grouped(sweep, basis, at, numbers, widths);
-    let s = at.end_in_ring::<Dyadic>(end);
+    let s = &at.end_in_ring::<Dyadic>(end) + &Dyadic::from(steps * STEP);
     let places = groups.get(span)?.iter().map(|chain| place(&pieces, &chain.members, &s));
     let told = places.reduce(|a, b| if a == b { a } else { Equal })?;
     certain.then_some(told)

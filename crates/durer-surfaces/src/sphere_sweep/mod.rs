@@ -17,6 +17,7 @@
 //!   intervals. An end is proven: beyond it `|x - c(u)|² - r(u)²`, a polynomial in `u`, is positive
 //!   for all balls of the run, before it negative for one.
 //! * `unite.rs`: the runs of all pieces that the ray meets, joined and united.
+//! * `capsule.rs`: both ends of the interval of two balls of one size, in closed form.
 //! * `exact.rs`: the same by exact arithmetic, where double-double does not suffice.
 //! * `point.rs`: points of the surface, and on which side of it a point is.
 //!
@@ -24,6 +25,7 @@
 //! equation for the ends, of degree ten, eliminates `s` and needs no square root, but has more roots
 //! than the surface has points.
 
+mod capsule;
 mod exact;
 mod line;
 mod point;
@@ -34,7 +36,11 @@ use crate::blob::Tree;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
+use capsule::Capsule;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Isa, Point3, U, Vec3};
 use spline::{B_SPLINE, Basis, CUBIC, LINEAR};
@@ -105,6 +111,8 @@ pub struct SphereSweep {
     tree: Arc<Tree>,
     /// The pieces in the order of the tree.
     order: Arc<[u32]>,
+    /// The numbers of a sweep of two balls of one size.
+    capsule: Option<Capsule>,
 }
 
 /// Products of larger numbers could leave the range of f64.
@@ -162,7 +170,17 @@ impl SphereSweep {
         let units: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(unit(b.min), unit(b.max))).collect();
         let (tree, order) = Tree::new(&units);
         let (tree, order) = (Arc::new(tree), order.into());
-        Ok(Self { spline, spheres: spheres.into(), bounds, centre, scale, reach, tree, order })
+        let capsule = match spheres {
+            [one, other] => Capsule::new(&[*one, *other], centre.to_array(), scale),
+            _ => None,
+        };
+        Ok(Self { spline, spheres: spheres.into(), bounds, centre, scale, reach, tree, order, capsule })
+    }
+
+    /// All points within `radius` of the line from `base` to `cap`.
+    pub fn capsule(base: Point3, cap: Point3, radius: f64) -> Result<Self, SphereSweepError> {
+        let ball = |p: Point3| [p.x, p.y, p.z, radius];
+        Self::new(SweepSpline::Linear, &[ball(base), ball(cap)])
     }
 
     /// The spline.
@@ -240,10 +258,6 @@ impl PartialEq for SphereSweep {
 }
 
 impl Surface for SphereSweep {
-    fn name(&self) -> &'static str {
-        "sphere sweep"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -264,16 +278,22 @@ impl Surface for SphereSweep {
         )
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.bounds)
-    }
-
     fn solidity(&self) -> Solidity {
         Solidity::Solid
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         with_basis!(self.spline, basis => self.side_of(basis, point))
+    }
+}
+
+impl Accelerate for SphereSweep {
+    fn name(&self) -> &'static str {
+        "sphere sweep"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.bounds)
     }
 }
 

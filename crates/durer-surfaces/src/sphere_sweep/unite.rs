@@ -6,7 +6,7 @@ use super::spline::Basis;
 use super::{SphereSweep, exact};
 use crate::blob::{Along, Inner};
 use crate::roots::quadratic::NARROW;
-use crate::{CentredRay, End, Flow, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
+use crate::{CentredRay, End, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
 use core::cell::Cell;
 use core::cmp::Ordering;
@@ -90,7 +90,11 @@ pub(super) fn roots<const K: usize, const M: usize>(
         let widths = Widths { origin: at.shift(), half, most };
         let Lists { pieces, spans, .. } = &mut lists;
         let mut certain = true;
-        if unite(sweep, basis, &at, Precision::Double, pieces, &widths, spans).is_err() {
+        let capsule = sweep.capsule.as_ref().and_then(|it| it.span(&at, &widths).ok());
+        if let Some(span) = capsule {
+            spans.clear();
+            spans.extend(span);
+        } else if unite(sweep, basis, &at, Precision::Double, pieces, &widths, spans).is_err() {
             certain = unite_exactly(sweep, basis, &at, pieces, &widths, spans);
         }
         show(sweep, basis, &at, (pieces, spans), &widths, certain, sink);
@@ -277,7 +281,6 @@ fn show<const K: usize, const M: usize>(
             let admitted = at.admits(lo, hi);
             if admitted == Some(false)
                 || admitted.is_none()
-                    && sign != 0
                     && is_beyond(sweep, basis, at, (pieces, spans), widths, (number, (lo, hi), sign))
             {
                 continue;
@@ -295,7 +298,7 @@ fn show<const K: usize, const M: usize>(
             };
             let tag = [f64::from(piece), x];
             let root = Root { t, lo, hi: hi.max(t), s: end.s, tag, face: 0, sign, kind };
-            if sink.push(root) == Flow::Stop {
+            if sink.push(root).is_break() {
                 return;
             }
         }
@@ -329,11 +332,24 @@ fn is_beyond<const K: usize, const M: usize>(
             return false;
         }
         if crowd > 1 {
-            match exact::place_of_end(sweep, basis, at, pieces, widths, (number, end)) {
+            let place =
+                |steps: f64| exact::place_of_end(sweep, basis, at, pieces, widths, (number, end, steps));
+            match place(0.0) {
                 Some(Ordering::Less) => return end == End::Max,
                 Some(Ordering::Greater) => return end == End::Min,
-                _ => {}
+                // An end of the range that is the span's last point within it has the span's other
+                // end beyond itself.
+                Some(Ordering::Equal) => match (end, place(if end == End::Min { 1.0 } else { -1.0 })) {
+                    (End::Min, Some(Ordering::Greater)) => return sign < 0,
+                    (End::Max, Some(Ordering::Less)) => return sign > 0,
+                    _ => {}
+                },
+                None => {}
             }
+        }
+        if sign == 0 {
+            // Nothing proves that a touch is beyond.
+            return false;
         }
         let is_out = match (end, at.spawned()) {
             (End::Min, Some((side, ..))) => side == RaySide::Front,

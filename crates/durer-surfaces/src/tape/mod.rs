@@ -9,6 +9,7 @@
 //! [shortened](Tape::shortened) (M. Keeter, "Massively parallel rendering of complex closed-form
 //! implicit surfaces", ACM TOG 39(4), 2020).
 
+mod expr;
 mod fold;
 mod formula;
 mod jumps;
@@ -16,6 +17,7 @@ mod powers;
 mod program;
 mod vector;
 
+pub use expr::Expr;
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};
 pub(crate) use powers::Powers;
 pub use program::Tape;

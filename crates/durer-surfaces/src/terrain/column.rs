@@ -16,8 +16,9 @@ use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
 use crate::planar::{self, AlongRay, Line as _, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::point::least_step;
-use crate::{Flow, LocalPoint, LocalRay, RingRay, Root, Side, Sink, SurfacePoint};
+use crate::{LocalPoint, LocalRay, RingRay, Root, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use core::ops::Range;
 use durer_math::rounding::{add_up, sub_down, sub_up};
 use durer_math::{Dyadic, Point3, Ring, Vec3};
@@ -181,7 +182,7 @@ impl<H: Heights> Sheet<H> {
         ray: &LocalRay<'_>,
         queue: &mut Queue,
         sink: &mut S,
-    ) -> Flow {
+    ) -> ControlFlow<()> {
         queue.pour(next, sink, |found, before| {
             if found.len() > 1 {
                 found.sort_unstable_by(|a, b| a.root.order(&b.root));

@@ -45,7 +45,8 @@ use crate::planar::{self, AlongRay, Crossing, Line as _, PlaneForm, Probe, Three
 use crate::roots::quadratic::Quadratic;
 use crate::swift::{self, Swift};
 use crate::{
-    Algebraic, Flow, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Algebraic, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dyadic, Normal3, Point3, Ring, Vec3};
@@ -300,10 +301,6 @@ impl AlongRay for Depth<'_> {
 }
 
 impl<H: Heights> Surface for Sheet<H> {
-    fn name(&self) -> &'static str {
-        H::NAME
-    }
-
     fn bounds(&self) -> Aabb {
         if self.is_solid { Aabb::UNBOUNDED } else { self.sheet_bounds() }
     }
@@ -322,7 +319,7 @@ impl<H: Heights> Surface for Sheet<H> {
             self.wall_roots(ray, sink.range(), &line, &mut queue);
         }
         let Some(span) = line.within(sink.range()) else {
-            let _: Flow = self.pour(f64::INFINITY, ray, &mut queue, sink);
+            let _ = self.pour(f64::INFINITY, ray, &mut queue, sink);
             return;
         };
         let filter = EdgeFilter::new(&probe);
@@ -334,7 +331,7 @@ impl<H: Heights> Surface for Sheet<H> {
         while let Some(Entry { block, data, span }) = stack.pop() {
             if queue.may_pour(span.0) {
                 let next = stack.iter().fold(span.0, |least, entry| least.min(entry.span.0));
-                if self.pour(next, ray, &mut queue, sink) == Flow::Stop {
+                if self.pour(next, ray, &mut queue, sink).is_break() {
                     return;
                 }
                 limit = line.latest(sink.range());
@@ -361,7 +358,7 @@ impl<H: Heights> Surface for Sheet<H> {
                 },
             );
         }
-        let _: Flow = self.pour(f64::INFINITY, ray, &mut queue, sink);
+        let _ = self.pour(f64::INFINITY, ray, &mut queue, sink);
     }
 
     #[inline(always)]
@@ -379,6 +376,12 @@ impl<H: Heights> Surface for Sheet<H> {
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.is_solid { self.column_side(point) } else { Side::Out }
+    }
+}
+
+impl<H: Heights> Accelerate for Sheet<H> {
+    fn name(&self) -> &'static str {
+        H::NAME
     }
 }
 

@@ -14,8 +14,9 @@
 //! holds a crossing is left out.
 
 use super::heights::Block;
-use crate::{CentredRay, Flow, Root, Sink};
+use crate::{CentredRay, Root, Sink};
 use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use durer_math::{Aabb, Point3, U, Vec3};
 
 /// Three of each level but the last wait; levels go up to 16, and the first has one entry.
@@ -265,10 +266,10 @@ impl Queue {
         next: f64,
         sink: &mut S,
         order: impl FnOnce(&mut [Found], i8),
-    ) -> Flow {
+    ) -> ControlFlow<()> {
         let waiting = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         if waiting.is_empty() {
-            return Flow::Continue;
+            return ControlFlow::Continue(());
         }
         order(waiting, self.sign);
         // Of those in turn, as many as come before `next`.
@@ -284,9 +285,7 @@ impl Queue {
             self.last = self.last.max(found.root.t);
             found.root.t = self.last;
             self.sign = found.root.sign;
-            if sink.push(found.root) == Flow::Stop {
-                return Flow::Stop;
-            }
+            sink.push(found.root)?;
         }
         if self.many.is_empty() && ready == self.few.len() {
             self.few.clear();
@@ -297,6 +296,6 @@ impl Queue {
         }
         let left = if self.many.is_empty() { self.few.as_slice() } else { &self.many };
         self.first = left.iter().fold(f64::INFINITY, |first, found| first.min(found.until));
-        Flow::Continue
+        ControlFlow::Continue(())
     }
 }

@@ -3,7 +3,7 @@
 use durer_math::Affine;
 use durer_math::{Aabb, Interval, Point3};
 use durer_surfaces::tape::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_surfaces::{AxisBox, BlobComponent, BlobShape, Container, Isosurface, Sphere, Surface};
+use durer_surfaces::{Accelerate, AxisBox, BlobComponent, BlobShape, Container, Isosurface, Sphere};
 
 /// The solid in which the fields of `components` add up to more than `threshold`.
 pub(crate) fn blob(threshold: f64, components: &[BlobComponent]) -> Isosurface {

@@ -5,7 +5,7 @@ use super::gauge::{REST, Sample, VALUE};
 use crate::implicit::line::BoundedLine;
 use crate::implicit::root_isolator::Found;
 use crate::implicit::roots::shown;
-use crate::{CentredRay, Flow, LocalRay, PREVIEW_WIDTH, RootKind, Sink};
+use crate::{CentredRay, LocalRay, PREVIEW_WIDTH, RootKind, Sink};
 use arrayvec::ArrayVec;
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Point3, RaySide, Vec3};
@@ -301,13 +301,13 @@ impl Along<'_> {
         if enters {
             let (s, lo, hi) = refined(left, first);
             let root = Found { s, lo, hi, sign: -1, kind: RootKind::Simple, touches: None };
-            if shown(at, sink, &root) == Flow::Stop {
+            if shown(at, sink, &root).is_break() {
                 return true;
             }
         }
         if leaves && at.bracket(last.s, last.s).0 <= sink.limit() {
             let (s, lo, hi) = refined(right, last);
-            shown(at, sink, &Found { s, lo, hi, sign: 1, kind: RootKind::Simple, touches: None });
+            let _ = shown(at, sink, &Found { s, lo, hi, sign: 1, kind: RootKind::Simple, touches: None });
         }
         true
     }

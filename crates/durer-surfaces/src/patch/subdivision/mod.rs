@@ -33,7 +33,10 @@ use super::map_uv;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
-use crate::{Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint};
+use crate::{
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
+};
 use data::INFINITELY_SHARP;
 use durer_math::{Aabb, Dd, Dyadic, Isa, Point3};
 use limit::{AHEAD, Limit};
@@ -244,10 +247,6 @@ impl PartialEq for SubdivisionSurface {
 }
 
 impl Surface for SubdivisionSurface {
-    fn name(&self) -> &'static str {
-        "subdivision surface"
-    }
-
     fn bounds(&self) -> Aabb {
         self.limit.bounds
     }
@@ -273,16 +272,22 @@ impl Surface for SubdivisionSurface {
         point
     }
 
-    fn packet_filter(&self, _part: PartId) -> FilterSource {
-        FilterSource::vague(self.limit.bounds)
-    }
-
     fn solidity(&self) -> Solidity {
         if self.is_closed { Solidity::Solid } else { Solidity::Open }
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.is_closed { self.limit.side(point) } else { Side::Out }
+    }
+}
+
+impl Accelerate for SubdivisionSurface {
+    fn name(&self) -> &'static str {
+        "subdivision surface"
+    }
+
+    fn packet_filter(&self, _part: PartId) -> FilterSource {
+        FilterSource::vague(self.limit.bounds)
     }
 }
 

@@ -38,7 +38,8 @@ use crate::planar::{self, Line, PointLine, Probe};
 use crate::revolution::level::HeightPlane;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
@@ -223,10 +224,6 @@ fn closed(outlines: &[impl AsRef<[Bezier]>]) -> Result<Vec<Vec<Bezier>>, PrismEr
 }
 
 impl Surface for CurvedPrism {
-    fn name(&self) -> &'static str {
-        "prism"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -272,6 +269,50 @@ impl Surface for CurvedPrism {
             (point.uv, point.dpdu, point.dpdv) = ([p.x, p.z], Vec3::X, Vec3::Z);
         }
         point
+    }
+
+    fn solidity(&self) -> Solidity {
+        if self.open { Solidity::Open } else { Solidity::Solid }
+    }
+
+    fn side(&self, point: &LocalPoint<'_>) -> Side {
+        if self.open {
+            return Side::Out;
+        }
+        let line = PointLine::new(point, Vec3::ZERO, self.view.centre, self.view.scale);
+        let above = |top: bool| line.side_of(&self.level(top)).unwrap_or(Ordering::Equal);
+        let (bottom, top) = (above(false), above(true));
+        if bottom.is_lt() || top.is_gt() {
+            return Side::Out;
+        }
+        let positive = match self.view.sweep {
+            Sweep::Linear => true,
+            Sweep::Conic => match line.sign(&self.level_at_apex()).unwrap_or(Ordering::Equal) {
+                Ordering::Greater => true,
+                Ordering::Less => false,
+                // At the apex's height the solid is only the apex.
+                Ordering::Equal => {
+                    let on_axis =
+                        [0, 2].iter().all(|&i| line.sign(&Coordinate(i)).is_none_or(Ordering::is_eq));
+                    return if on_axis { Side::On } else { Side::Out };
+                }
+            },
+        };
+        let scan = Scan::new(&line, &self.view, Cut::Start { positive });
+        if self.pieces.iter().any(|piece| scan.touches(piece)) {
+            return Side::On;
+        }
+        match self.pieces.iter().fold(false, |odd, piece| odd ^ scan.is_odd_behind(piece)) {
+            false => Side::Out,
+            true if bottom.is_eq() || top.is_eq() => Side::On,
+            true => Side::In,
+        }
+    }
+}
+
+impl Accelerate for CurvedPrism {
+    fn name(&self) -> &'static str {
+        "prism"
     }
 
     #[inline(always)]
@@ -320,44 +361,6 @@ impl Surface for CurvedPrism {
     #[inline(always)]
     fn part_roots<S: Sink + ?Sized>(&self, part: PartId, ray: &LocalRay<'_>, sink: &mut S) {
         self.roots_of_part(part, ray, &mut Forward(sink));
-    }
-
-    fn solidity(&self) -> Solidity {
-        if self.open { Solidity::Open } else { Solidity::Solid }
-    }
-
-    fn side(&self, point: &LocalPoint<'_>) -> Side {
-        if self.open {
-            return Side::Out;
-        }
-        let line = PointLine::new(point, Vec3::ZERO, self.view.centre, self.view.scale);
-        let above = |top: bool| line.side_of(&self.level(top)).unwrap_or(Ordering::Equal);
-        let (bottom, top) = (above(false), above(true));
-        if bottom.is_lt() || top.is_gt() {
-            return Side::Out;
-        }
-        let positive = match self.view.sweep {
-            Sweep::Linear => true,
-            Sweep::Conic => match line.sign(&self.level_at_apex()).unwrap_or(Ordering::Equal) {
-                Ordering::Greater => true,
-                Ordering::Less => false,
-                // At the apex's height the solid is only the apex.
-                Ordering::Equal => {
-                    let on_axis =
-                        [0, 2].iter().all(|&i| line.sign(&Coordinate(i)).is_none_or(Ordering::is_eq));
-                    return if on_axis { Side::On } else { Side::Out };
-                }
-            },
-        };
-        let scan = Scan::new(&line, &self.view, Cut::Start { positive });
-        if self.pieces.iter().any(|piece| scan.touches(piece)) {
-            return Side::On;
-        }
-        match self.pieces.iter().fold(false, |odd, piece| odd ^ scan.is_odd_behind(piece)) {
-            false => Side::Out,
-            true if bottom.is_eq() || top.is_eq() => Side::On,
-            true => Side::In,
-        }
     }
 }
 

@@ -16,9 +16,10 @@ use super::profile_curve::{ProfileCurve, View};
 use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
 use crate::roots::polynomial::{Along, Found, Stretch, solve};
 use crate::roots::quadratic::{Limits, NARROW};
-use crate::{Flow, PREVIEW_WIDTH, RingRay};
+use crate::{PREVIEW_WIDTH, RingRay};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
+use core::ops::ControlFlow;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 
 /// Covers results below the normal range.
@@ -208,7 +209,7 @@ impl<'a, L: Line> Scan<'a, L> {
                     turn: turn(found.before, found.after),
                     certain: found.certain,
                 });
-                Flow::Continue
+                ControlFlow::Continue(())
             },
         );
     }

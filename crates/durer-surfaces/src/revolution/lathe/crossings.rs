@@ -15,8 +15,9 @@ use crate::prism::curved::exact::{Ends, at, turn};
 use crate::prism::curved::profile_hits::Meet;
 use crate::roots::polynomial::{Along, Found, Stretch, solve};
 use crate::roots::quadratic::{Limits, NARROW};
-use crate::{Flow, LocalRay, PREVIEW_WIDTH, RingRay, Root, RootKind, Sink};
+use crate::{LocalRay, PREVIEW_WIDTH, RingRay, Root, RootKind, Sink};
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::efloat::Word;
 use durer_math::{EFloat, Isa, Ring, U};
 
@@ -390,10 +391,10 @@ pub(super) fn meets<L: Line>(
     let limits = Limits { lo: -1.0, hi: 1.0, origin: 0.0, width: PREVIEW_WIDTH };
     let stretch = Stretch::Within { mid: 0.0, half: 0.5 };
     #[inline(always)]
-    fn found(f: &mut impl FnMut(Meet), found: &Found<'_>) -> Flow {
+    fn found(f: &mut impl FnMut(Meet), found: &Found<'_>) -> ControlFlow<()> {
         let turn = turn(found.before, found.after);
         f(Meet { y: found.s, lo: found.lo.max(-0.5), hi: found.hi.min(0.5), turn, certain: found.certain });
-        Flow::Continue
+        ControlFlow::Continue(())
     }
     match (meeting.equation(), meeting.piece.degree) {
         (Equation::Level, _) => solve::<4, _>(

@@ -31,7 +31,8 @@ use crate::planar::Probe;
 use crate::prism::curved::profile_curve::extent;
 use crate::roots::quadratic::Quadratic;
 use crate::{
-    Algebraic, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface, SurfacePoint,
+    Accelerate, Algebraic, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface,
+    SurfacePoint,
 };
 use boxes::{Boxes, Hollow};
 use core::cmp::Ordering;
@@ -183,10 +184,6 @@ fn volume(piece: &Piece) -> f64 {
 }
 
 impl Surface for Lathe {
-    fn name(&self) -> &'static str {
-        "lathe"
-    }
-
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -210,6 +207,12 @@ impl Surface for Lathe {
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.profile.is_closed { self.side_of(point) } else { Side::Out }
+    }
+}
+
+impl Accelerate for Lathe {
+    fn name(&self) -> &'static str {
+        "lathe"
     }
 }
 
