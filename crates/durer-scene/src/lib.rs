@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod cell_numbers;
 mod colour;
 mod finish;
 mod fog;
@@ -40,6 +41,7 @@ mod shape;
 mod texture;
 
 pub use crate::camera::{Camera, Projection};
+pub use crate::cell_numbers::CellNumbers;
 pub use crate::colour::{Colour, Rgb};
 pub use crate::finish::{Finish, Irid, Reflection};
 pub use crate::fog::{Fog, GroundFog};

@@ -33,7 +33,7 @@ pub(crate) struct Normal {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NormalKind {
     Pattern(PatternKind),
-    /// Facets of about this size.
+    /// Facets, tilted by this much.
     Facets(f64),
 }
 
@@ -210,7 +210,7 @@ impl Parser<'_> {
                 self.next()?;
                 let given = self.float()?;
                 if given <= 0.0 {
-                    let text = format!("the size of facets must be positive, not {given}");
+                    let text = format!("coords of facets must be positive, not {given}");
                     return Err(Error::invalid(place, text));
                 }
                 *size = given;
