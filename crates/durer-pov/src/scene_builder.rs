@@ -333,6 +333,7 @@ impl Parser<'_> {
                 max_trace_level: globals.max_trace_level,
                 adc_bailout: globals.adc_bailout,
                 ambient_light: rgb(globals.ambient_light),
+                number_of_waves: globals.number_of_waves,
             },
         })
     }

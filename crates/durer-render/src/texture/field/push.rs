@@ -22,6 +22,9 @@ pub(in crate::texture) enum Pusher {
 /// The number of octaves of wrinkles.
 const OCTAVES: usize = 10;
 
+/// The factor of a cushion's slopes, 2/sqrt(3): with it the slope at a corner is 1.
+const QUILT: f64 = 1.154_700_538_379_251_5;
+
 /// The number of random points of facets in each unit along an axis (a fact of the scene language).
 const FACETS: f64 = 10.0;
 
@@ -60,7 +63,7 @@ impl Pusher {
             Self::Quilted(bottom, top) => {
                 let half = |x: f64| x - floor(x) - 0.5;
                 let v = Vec3::new(half(p.x), half(p.y), half(p.z));
-                v * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top)
+                v * (QUILT * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top))
             }
             Self::Facets(amount, points) => {
                 let v = points.vector((p.to_vec() * FACETS).to_point());
