@@ -17,7 +17,7 @@ use crate::limits;
 use crate::object::{Object, Shape, subdivision_bytes};
 use crate::parser::Parser;
 use crate::settings::{Gamma, Globals};
-use crate::texture::{Finish, Interior, Layer, Texture};
+use crate::texture::{Film, Finish, Interior, Layer, Texture};
 use crate::texture_builder::{pigment, texture};
 use crate::transform::{Matrix, length};
 
@@ -592,9 +592,10 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
                 metallic: mirror.metallic,
             })
         }),
-        irid: own.irid.map(|[amount, thickness]| {
+        irid: own.irid.map(|film| {
+            let Film { amount, thickness, turbulence, old } = film;
             let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
-            scene::Irid { amount, thickness, wavelength }
+            scene::Irid { amount, thickness, wavelength, turbulence, old }
         }),
         conserve_energy: own.conserve_energy,
     }

@@ -105,6 +105,7 @@ impl Parser<'_> {
                     if let Some(list) = self.normal_list(kind, &mut normal.amount)? {
                         normal.normals = Some(list);
                     }
+                    self.end_of_list(kind)?;
                 }
                 normal.kind = Some(kind);
                 normal.is_bump_map = bump_size.is_some();
