@@ -179,7 +179,7 @@ fn bad_numbers_are_named() {
         ("light_source { 0 rgb 1 area_light x, y, 0, 2 }", "along a side, not 0"),
         ("camera { cylinder 7 }", "kind 1 to 4, not 7"),
         ("sphere { 0, 1 pigment { density_file df3 \"no.df3\" } }", "there is no picture \"no.df3\""),
-        ("sphere { 0, 1 pigment { object { disc { 0, y, 1 } rgb 0 rgb 1 } } }", "inside"),
+        ("sphere { 0, 1 pigment { object { box { 0, <1, 0, 1> } rgb 0 rgb 1 } } }", "without volume"),
         ("global_settings { number_of_waves 0 }", "1 to 1000, not 0"),
         ("text { ttf \"nosuch.ttf\" \"a\" 1, 0 }", "there is no font \"nosuch.ttf\""),
         ("text { internal 9 \"a\" 1, 0 }", "0 to 3, not 9"),
