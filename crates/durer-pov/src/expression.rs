@@ -64,7 +64,10 @@ impl Parser<'_> {
 
     /// Reads comparisons, which have the same precedence, from left to right.
     fn comparison(&mut self) -> Result<Terms> {
-        let mut left = self.expression()?;
+        let mut left = match self.compared_strings()? {
+            Some(holds) => holds,
+            None => self.expression()?,
+        };
         loop {
             let mark = match self.peek()? {
                 Item::Mark(
@@ -101,6 +104,31 @@ impl Parser<'_> {
                 _ => !same(a, b),
             });
         }
+    }
+
+    /// Reads the comparison of two strings, if a string comes next.
+    fn compared_strings(&mut self) -> Result<Option<Terms>> {
+        let is_string = match self.peek()? {
+            Item::Text(..) | Item::Value(Value::Text(_)) => true,
+            Item::Word(keyword) => crate::strings::makes_string(*keyword),
+            _ => false,
+        };
+        if !is_string {
+            return Ok(None);
+        }
+        let left = self.string("a comparison")?;
+        let lexeme = self.next()?;
+        let holds: fn(&str, &str) -> bool = match &lexeme.item {
+            Item::Mark(Mark::Less) => |a, b| a < b,
+            Item::Mark(Mark::Greater) => |a, b| a > b,
+            Item::Mark(Mark::LessEqual) => |a, b| a <= b,
+            Item::Mark(Mark::GreaterEqual) => |a, b| a >= b,
+            Item::Mark(Mark::Equal) => |a, b| a == b,
+            Item::Mark(Mark::NotEqual) => |a, b| a != b,
+            _ => return Err(self.unexpected(&lexeme, "a comparison of two strings, such as `=`")),
+        };
+        let right = self.string("a comparison")?;
+        Ok(Some(flag(holds(&left, &right))))
     }
 
     /// Reads sums and differences.

@@ -118,9 +118,8 @@ impl Parser<'_> {
         }
     }
 
-    /// `{ ... }`: the body of a function of x, y and z that gives a float.
-    pub(crate) fn function_in_braces(&mut self) -> Result<Formula> {
-        self.expect(Mark::BraceOpen)?;
+    /// Reads the body of a function of `x`, `y` and `z`, behind its opening brace: one number.
+    pub(crate) fn function_behind_brace(&mut self) -> Result<Formula> {
         let place = self.here();
         match self.nested(|r| r.function_body(&None, place))? {
             Value::Function(called) => Ok(called.formula.clone()),

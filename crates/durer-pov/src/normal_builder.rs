@@ -26,7 +26,9 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             |_, _, _| Err(blend_of_patterns(at)),
         )?)),
         (None, Some(push)) if own.slopes.is_none() => {
-            scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount: own.amount }
+            // Facets have an amount of their own.
+            let amount = if matches!(push, scene::Push::Facets(_)) { 1.0 } else { own.amount };
+            scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount }
         }
         (None, _) if pattern.kind == PatternKind::Average => return Ok(None),
         (None, _) if own.is_bump_map && own.slopes.is_none() => {

@@ -168,6 +168,7 @@ pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> O
         | PatternKind::Triangular
         | PatternKind::Ramp(..)
         | PatternKind::GreyOf(_)
+        | PatternKind::Inside(..)
         | PatternKind::Materials(_)
         | PatternKind::Average => return None,
     };

@@ -17,7 +17,7 @@ use crate::limits;
 use crate::object::{Object, Shape, subdivision_bytes};
 use crate::parser::Parser;
 use crate::settings::{Gamma, Globals};
-use crate::texture::{Finish, Interior, Layer, Texture};
+use crate::texture::{Film, Finish, Interior, Layer, Texture};
 use crate::texture_builder::{pigment, texture};
 use crate::transform::{Matrix, length};
 
@@ -333,6 +333,7 @@ impl Parser<'_> {
                 max_trace_level: globals.max_trace_level,
                 adc_bailout: globals.adc_bailout,
                 ambient_light: rgb(globals.ambient_light),
+                number_of_waves: globals.number_of_waves,
             },
         })
     }
@@ -591,9 +592,10 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
                 metallic: mirror.metallic,
             })
         }),
-        irid: own.irid.map(|[amount, thickness]| {
+        irid: own.irid.map(|film| {
+            let Film { amount, thickness, turbulence, old } = film;
             let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
-            scene::Irid { amount, thickness, wavelength }
+            scene::Irid { amount, thickness, wavelength, turbulence, old }
         }),
         conserve_energy: own.conserve_energy,
     }

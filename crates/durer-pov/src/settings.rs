@@ -73,16 +73,19 @@ pub(crate) struct Globals {
     pub(crate) max_trace_level: u32,
     pub(crate) adc_bailout: f64,
     pub(crate) ambient_light: [f64; 3],
+    pub(crate) number_of_waves: u32,
 }
 
 impl Default for Globals {
     fn default() -> Self {
-        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, ambient_light: [1.0; 3] }
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, ambient_light: [1.0; 3], number_of_waves: 10 }
     }
 }
 
 /// The newest supported version of the language.
 const NEWEST: f64 = 3.7;
+/// The greatest number of waves that is not refused; scenes use a handful.
+const MOST_WAVES: f64 = 1000.0;
 /// POV-Ray's limit on `max_trace_level`.
 const DEEPEST_TRACE: f64 = 256.0;
 
@@ -143,8 +146,16 @@ impl Parser<'_> {
                     }
                 }
                 Keyword::NoiseGenerator => self.noise_generator(place)?,
-                Keyword::MaxIntersections | Keyword::NumberOfWaves | Keyword::MmPerUnit => {
+                Keyword::MaxIntersections | Keyword::MmPerUnit => {
                     self.float()?;
+                }
+                Keyword::NumberOfWaves => {
+                    let count = self.float()?;
+                    if !(1.0..=MOST_WAVES).contains(&count) {
+                        let text = format!("number_of_waves is 1 to {MOST_WAVES}, not {count}");
+                        return Err(Error::invalid(place, text));
+                    }
+                    self.scene.globals.number_of_waves = count as u32;
                 }
                 Keyword::IridWavelength => drop(self.colour()?),
                 Keyword::Photons | Keyword::Radiosity | Keyword::Subsurface => {

@@ -222,6 +222,7 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
             }
             return Ok(ramp);
         }
+        PatternKind::Inside(object, _) => return Ok(scene::Ramp::Inside(Box::new((**object).clone()))),
         PatternKind::GreyOf(own) => return Ok(scene::Ramp::Pigment(Box::new(pigment(own, at)?))),
         PatternKind::Written(word, place) => (*word, *place),
         PatternKind::Checker

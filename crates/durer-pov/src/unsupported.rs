@@ -24,9 +24,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Composite
             | Count
             | Density
-            | DensityFile
             | DensityMap
-            | Df3
             | Eccentricity
             | ErrorBound
             | ExpandThresholds

@@ -126,6 +126,25 @@ fn strings_have_their_functions() {
 }
 
 #[test]
+fn strings_are_compared() {
+    for (condition, want) in [
+        (r#""a" = "a""#, 1),
+        (r#""a" != "a""#, 0),
+        (r#""a" < "b""#, 1),
+        (r#""b" <= "a""#, 0),
+        (r#""b" > "a""#, 1),
+        (r#""a" >= "a""#, 1),
+        (r#"S = concat("a", "b")"#, 1),
+        (r#"("a" = "a") & (S != "")"#, 1),
+    ] {
+        let text = format!("#declare S = \"ab\"; #if ({condition}) #debug \"1\" #else #debug \"0\" #end");
+        assert_eq!(debug(&text), want.to_string(), "{condition}");
+    }
+    assert!(fault(r#"#if ("a" = 1) #end"#).2.contains("a string for a comparison"));
+    assert!(fault(r#"#if ("a") #end"#).2.contains("a comparison of two strings"));
+}
+
+#[test]
 fn what_has_no_value_is_said_at_its_place() {
     assert_eq!(fault("#declare A = 1/0;"), (1, 15, "division by zero".into()));
     assert!(fault("#declare A = <1,2,3>/<1,0,1>;").2.contains("division by zero"));

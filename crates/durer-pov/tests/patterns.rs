@@ -99,6 +99,71 @@ fn what_is_left_out_is_told_once_or_refused() {
 }
 
 #[test]
+fn an_object_is_a_pattern_of_two_entries() {
+    let pigment = pigment("object { sphere { 0, 2 translate x } rgb 0.25 rgb 0.75 } scale 2");
+    let PigmentBody::Colours(pattern) = &pigment.body else { panic!("colours") };
+    let Pattern::Map { value, entries } = &**pattern else { panic!("map") };
+    assert!(matches!(value.ramp, Ramp::Inside(_)) && value.frequency == 0.0);
+    let shown: Vec<(f64, f64)> = entries.iter().map(|(at, colour)| (*at, colour.rgb.r)).collect();
+    assert_eq!(shown, [(0.0, 0.25), (1.0, 0.75)]);
+    let texture = "sphere { 0, 1 texture { object { box { 0, 1 } texture { pigment { rgb 0 } } texture { pigment { rgb 1 } } } } }";
+    assert!(matches!(
+        &scene(texture).objects[0].texture.as_ref().unwrap().body,
+        TextureBody::Pattern(pattern) if pattern.entries().count() == 2
+    ));
+}
+
+#[test]
+fn a_density_file_is_read() {
+    let folder = Folder::new();
+    folder.write("two.df3", [0, 2, 0, 1, 0, 1, 0, 255]);
+    folder.write("cut.df3", [0, 2, 0, 1, 0, 1, 0]);
+    let text =
+        |name: &str| format!("sphere {{ 0, 1 pigment {{ density_file df3 \"{name}\" interpolate 1 }} }}");
+    folder.write("scene.pov", text("two.df3"));
+    let read = folder.read("scene.pov").unwrap();
+    let texture = read.scene.objects[0].texture.clone().unwrap();
+    let TextureBody::Layers(layers) = &texture.body else { panic!("layers") };
+    let PigmentBody::Colours(pattern) = &layers[0].pigment.body else { panic!("colours") };
+    let Pattern::Map { value, .. } = &**pattern else { panic!("map") };
+    let Ramp::Density(grid, between) = &value.ramp else { panic!("density") };
+    assert_eq!(grid.value([0.25, 0.5, 0.5], *between), 0.5);
+    folder.write("scene.pov", text("cut.df3"));
+    let refused = folder.read("scene.pov").unwrap_err().to_string();
+    assert!(refused.contains("this is no density file"), "{refused}");
+}
+
+#[test]
+fn entries_of_normal_maps_start_from_the_default_normal() {
+    let scene = scene(
+        "#default { normal { bump_size 1.5 } }
+        sphere { 0, 1 pigment { rgb 1 } normal { gradient x normal_map { [0 bumps] [1 bumps 0.25] } } }",
+    );
+    let texture = scene.objects[0].texture.clone().unwrap();
+    let TextureBody::Layers(layers) = &texture.body else { panic!("layers") };
+    let NormalBody::Normals(map) = &layers[0].normal.as_ref().unwrap().body else { panic!("normals") };
+    let amounts: Vec<f64> = map
+        .entries()
+        .map(|normal| match normal.body {
+            NormalBody::Push { amount, .. } => amount,
+            _ => f64::NAN,
+        })
+        .collect();
+    assert_eq!(amounts, [1.5, 0.25]);
+}
+
+#[test]
+fn a_height_field_of_a_pigment_has_its_grey_values() {
+    // POV-Ray's heights of a red, a green and a blue one.
+    for (colour, want) in [("0.5, 0, 0", 0.1485), ("0, 0.5, 0", 0.2945), ("0, 0, 0.5", 0.057)] {
+        let text = format!("height_field {{ function 4, 4 {{ pigment {{ rgb <{colour}> }} }} }}");
+        let scene = scene(&text);
+        let durer_scene::Shape::HeightField(field) = &scene.objects[0].shape else { panic!("field") };
+        assert!(field.range().iter().all(|height| (height - want).abs() < 1e-4), "{:?}", field.range());
+    }
+}
+
+#[test]
 fn bad_numbers_are_named() {
     for (text, part) in [
         ("sphere { 0, 1 pigment { crackle metric -1 } }", "must be positive, not -1"),
@@ -113,6 +178,9 @@ fn bad_numbers_are_named() {
         ("fog { fog_type 3 }", "1 or 2, not 3"),
         ("light_source { 0 rgb 1 area_light x, y, 0, 2 }", "along a side, not 0"),
         ("camera { cylinder 7 }", "kind 1 to 4, not 7"),
+        ("sphere { 0, 1 pigment { density_file df3 \"no.df3\" } }", "there is no picture \"no.df3\""),
+        ("sphere { 0, 1 pigment { object { box { 0, <1, 0, 1> } rgb 0 rgb 1 } } }", "without volume"),
+        ("global_settings { number_of_waves 0 }", "1 to 1000, not 0"),
         ("text { ttf \"nosuch.ttf\" \"a\" 1, 0 }", "there is no font \"nosuch.ttf\""),
         ("text { internal 9 \"a\" 1, 0 }", "0 to 3, not 9"),
     ] {

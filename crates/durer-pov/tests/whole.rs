@@ -107,12 +107,13 @@ fn gamma_depends_on_the_version() {
 }
 
 #[test]
-fn settings_without_effect_are_taken() {
+fn settings_are_taken() {
     let settings = scene("global_settings { charset utf8 max_intersections 64 noise_generator 2 number_of_waves 5 max_trace_level 9 ambient_light rgb 2 adc_bailout 0.1 }").settings;
     assert_eq!(
         (settings.max_trace_level, settings.adc_bailout, settings.ambient_light),
         (9, 0.1, Rgb::grey(2.0))
     );
+    assert_eq!(settings.number_of_waves, 5);
 }
 
 /// Every standard file, read after the colours and shapes that some of them expect.

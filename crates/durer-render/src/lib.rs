@@ -40,6 +40,7 @@ mod lanes;
 mod light;
 mod material;
 mod medium;
+mod pigment_colours;
 mod power;
 mod progress;
 mod ray_end;
@@ -54,6 +55,7 @@ mod world;
 
 pub use crate::integrator::{RayKind, RayTree, ShadowRay, TracedRay};
 pub use crate::interactive::PixelTracer;
+pub use crate::pigment_colours::PigmentColours;
 pub use crate::progress::{Progress, Status};
 pub use crate::render::{RenderError, Rendered, render};
 pub use crate::settings::{AntiAliasing, Region, RenderSettings};

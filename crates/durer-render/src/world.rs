@@ -73,7 +73,7 @@ impl World {
     /// Builds the geometry of a scene and prepares its looks, lights and camera.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
         let grains = scene.noise.as_ref().map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
-        building_with(grains, || Self::built(scene))
+        building_with(grains, scene.settings.number_of_waves, || Self::built(scene))
     }
 
     fn built(scene: &Scene) -> Result<Self, WorldError> {

@@ -77,6 +77,11 @@ pub struct Irid {
     pub thickness: f64,
     /// The wavelengths of red, green and blue light.
     pub wavelength: Rgb,
+    /// How much the thickness varies from place to place: it is multiplied by
+    /// `1 + turbulence (2 T - 1)`, where `T` is five octaves of noise at the point in space.
+    pub turbulence: f64,
+    /// Whether that noise is the first generator's.
+    pub old: bool,
 }
 
 /// How a surface reflects its surroundings.

@@ -16,7 +16,7 @@ const TABLE: usize = 267;
 
 /// Cells are counted from here, modulo the length of the permutation.
 const FIRST_CELL: i64 = 10_000;
-const PERIOD: usize = 4096;
+pub(crate) const PERIOD: usize = 4096;
 
 /// POV-Ray's noise with its table.
 #[derive(Clone, PartialEq)]
@@ -108,13 +108,18 @@ fn cell(whole: i64) -> usize {
 }
 
 fn hash(order: &[u16], x: usize, y: usize, z: usize) -> usize {
+    wide_hash(order, x, y, z) & 0xff
+}
+
+/// The hash before all but its lowest eight bits are dropped: 0 to 4095.
+pub(crate) fn wide_hash(order: &[u16], x: usize, y: usize, z: usize) -> usize {
     let one = usize::from(order[x]) ^ y;
     let two = usize::from(order[one]) ^ z;
-    usize::from(order[two]) & 0xff
+    usize::from(order[two])
 }
 
 /// The permutation: numbers exchanged by a linear congruential generator.
-fn order() -> Box<[u16]> {
+pub(crate) fn order() -> Box<[u16]> {
     let mut order: Vec<u16> = (0..PERIOD as u16).collect();
     let mut seed = 0_u32;
     for i in (0..PERIOD).rev() {

@@ -20,7 +20,9 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod cell_numbers;
 mod colour;
+mod density_grid;
 mod finish;
 mod fog;
 mod image;
@@ -40,7 +42,9 @@ mod shape;
 mod texture;
 
 pub use crate::camera::{Camera, Projection};
+pub use crate::cell_numbers::CellNumbers;
 pub use crate::colour::{Colour, Rgb};
+pub use crate::density_grid::{DensityGrid, GridBetween};
 pub use crate::finish::{Finish, Irid, Reflection};
 pub use crate::fog::{Fog, GroundFog};
 pub use crate::image::{Between, Image, ImageMap, ImageValue, Layout};

@@ -73,7 +73,7 @@ pub enum Push {
     Ripples(Ripples),
     /// Cushions in unit cubes. The two numbers bend the seam.
     Quilted(f64, f64),
-    /// A random vector for all points nearest to one of some random points, which are this far
-    /// apart.
+    /// A random vector along the surface, times this, for all points nearest to one of some random
+    /// points.
     Facets(f64),
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::Vec3;
 use durer_surfaces::tape::Formula;
 
-use crate::{Cells, ImageMap, ImageValue, Pigment, Turbulence};
+use crate::{Cells, DensityGrid, GridBetween, ImageMap, ImageValue, Object, Pigment, Turbulence};
 
 /// The function that a continuous pattern grows with.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,10 @@ pub enum Ramp {
     Image(Arc<ImageMap>, ImageValue),
     /// The grey value of a pigment.
     Pigment(Box<Pigment>),
+    /// 1 in an object, 0 elsewhere.
+    Inside(Box<Object>),
+    /// Numbers on a grid in the unit cube.
+    Density(Arc<DensityGrid>, GridBetween),
 }
 
 /// A pattern made of noise.

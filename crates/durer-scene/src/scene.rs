@@ -60,6 +60,8 @@ pub struct Settings {
     pub adc_bailout: f64,
     /// The light that is everywhere.
     pub ambient_light: Rgb,
+    /// The number of centres of the waves of `ripples` and `waves`.
+    pub number_of_waves: u32,
 }
 
 impl Default for Settings {
@@ -70,6 +72,7 @@ impl Default for Settings {
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             ambient_light: Rgb::WHITE,
+            number_of_waves: 10,
         }
     }
 }

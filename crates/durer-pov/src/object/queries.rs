@@ -111,6 +111,18 @@ impl Parser<'_> {
         Ok(f64::from(u8::from(holds)).into())
     }
 
+    /// Reads the object of an `object` pattern: its volume as data of the scene.
+    pub(crate) fn volume_for_pattern(&mut self, place: Place) -> Result<scene::Object> {
+        let object = self.asked_object()?;
+        if object.lacks_volume {
+            return Err(Error::invalid(place, "this object has parts without volume, so it is no pattern"));
+        }
+        // It is built once here, so that what cannot be built is named.
+        self.ready(&object, true, place)?;
+        let made = self.emitted(&object, &mut Lights::new()).map_err(|fault| from_here(fault, place))?;
+        made.map(volume).ok_or_else(|| Error::invalid(place, "this object has no inside"))
+    }
+
     /// `min_extent(OBJECT)` and `max_extent(OBJECT)`, between their parentheses.
     pub(crate) fn end_of_extent(&mut self, greatest: bool, place: Place) -> Result<Terms> {
         let object = self.asked_object()?;

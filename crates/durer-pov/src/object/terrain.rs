@@ -2,16 +2,20 @@
 
 use std::rc::Rc;
 
-use durer_math::F8;
+use durer_math::{F8, Point3};
+use durer_render::PigmentColours;
 use durer_scene::tape::{Formula, Tape};
-use durer_scene::{HeightField, MOST_SAMPLES, Terrain, TerrainData};
+use durer_scene::{HeightField, MOST_SAMPLES, Settings, Terrain, TerrainData};
 
 use super::Shape;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
+use crate::lexer::Mark;
 use crate::limits;
 use crate::parser::Parser;
 use crate::picture::{self, Fault, Format};
+use crate::texture::Pigment;
+use crate::texture_builder;
 
 /// How many values of a function count as a step.
 const VALUES_A_STEP: usize = 64;
@@ -101,9 +105,14 @@ impl Parser<'_> {
             return Err(Error::invalid(at, format!("this height_field {text}")));
         }
         self.check_memory(bytes_of(size, 8), at)?;
-        let formula = self.function_in_braces()?;
-        self.count_steps((columns * rows / VALUES_A_STEP) as u64, place)?;
-        let (heights, outside) = sampled(&formula, size);
+        self.expect(Mark::BraceOpen)?;
+        let (heights, outside) = if self.take_word(Keyword::Pigment)? {
+            self.sampled_pigment(size, place)?
+        } else {
+            let formula = self.function_behind_brace()?;
+            self.count_steps((columns * rows / VALUES_A_STEP) as u64, place)?;
+            sampled(&formula, size)
+        };
         if outside > 0 {
             let all = columns * rows;
             let text = format!(
@@ -112,6 +121,21 @@ impl Parser<'_> {
             self.notice(place, text);
         }
         HeightField::new(size, heights).map_err(|error| Error::invalid(place, error.to_string()))
+    }
+
+    /// The grey values of a pigment, behind its word.
+    fn sampled_pigment(&mut self, size: [usize; 2], place: Place) -> Result<(Vec<f64>, usize)> {
+        let own = self.nested(|r| r.pigment_block(&Pigment::default()))?;
+        self.expect(Mark::BraceClose)?;
+        self.count_steps((size[0] * size[1]) as u64, place)?;
+        let settings =
+            Settings { number_of_waves: self.scene.globals.number_of_waves, ..Settings::default() };
+        let made = texture_builder::pigment(&own, place)?;
+        let colours = PigmentColours::new(&made, self.options.noise.as_ref(), &settings)
+            .map_err(|error| Error::invalid(place, error.to_string()))?;
+        Ok(heights_of(size, |x, y| {
+            F8(std::array::from_fn(|i| colours.at(Point3::new(x.0[i], y, 0.0)).rgb.luminance()))
+        }))
     }
 
     /// The number of columns or rows.
@@ -206,16 +230,20 @@ fn bytes_of([columns, rows]: [usize; 2], each: usize) -> usize {
 }
 
 /// A function's values by rows, moved between 0 and 1, and how many had to be. The first row is at y = 0.
-fn sampled(formula: &Formula, [columns, rows]: [usize; 2]) -> (Vec<f64>, usize) {
+fn sampled(formula: &Formula, size: [usize; 2]) -> (Vec<f64>, usize) {
     let tape = Tape::new(formula);
+    heights_of(size, |x, y| tape.values(&[x, F8::splat(y), F8::ZERO]))
+}
+
+/// As [`sampled`], for values at eight `x` and one `y`.
+fn heights_of([columns, rows]: [usize; 2], values: impl Fn(F8, f64) -> F8) -> (Vec<f64>, usize) {
     let (mut heights, mut outside) = (Vec::with_capacity(columns * rows), 0);
     let at = |n: usize, count: usize| n.min(count - 1) as f64 / (count - 1) as f64;
     for row in 0..rows {
-        let y = F8::splat(at(row, rows));
+        let y = at(row, rows);
         for first in (0..columns).step_by(8) {
             let x = F8(std::array::from_fn(|k| at(first + k, columns)));
-            let values = tape.values(&[x, y, F8::ZERO]);
-            for value in values.0.into_iter().take(columns - first) {
+            for value in values(x, y).0.into_iter().take(columns - first) {
                 let height = if value > 0.0 { value.min(1.0) } else { 0.0 };
                 outside += usize::from(height != value);
                 heights.push(height);

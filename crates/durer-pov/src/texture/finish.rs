@@ -26,6 +26,16 @@ impl Default for Reflection {
     }
 }
 
+/// A thin film on a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Film {
+    pub(crate) amount: f64,
+    pub(crate) thickness: f64,
+    pub(crate) turbulence: f64,
+    /// Whether the noise is the first generator's.
+    pub(crate) old: bool,
+}
+
 /// How a surface reflects and scatters light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Finish {
@@ -46,7 +56,7 @@ pub(crate) struct Finish {
     pub(crate) crand: f64,
     pub(crate) conserve_energy: bool,
     /// The amount and the thickness of a thin film.
-    pub(crate) irid: Option<[f64; 2]>,
+    pub(crate) irid: Option<Film>,
     pub(crate) reflection: Reflection,
 }
 
@@ -140,24 +150,22 @@ impl Parser<'_> {
     }
 
     /// Reads `irid { amount thickness T turbulence V }`.
-    fn irid(&mut self, irid: &mut Option<[f64; 2]>) -> Result<()> {
+    fn irid(&mut self, irid: &mut Option<Film>) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
-        let amount = self.float()?;
-        let mut thickness = irid.map_or(0.0, |[_, thickness]| thickness);
+        let mut film = irid.unwrap_or_default();
+        film.amount = self.float()?;
+        film.old = self.language.noise_generator() == 1.0;
         loop {
             let lexeme = self.next()?;
             match &lexeme.item {
                 Item::Mark(Mark::BraceClose) => break,
-                Item::Word(Keyword::Thickness) => thickness = self.float()?,
-                Item::Word(Keyword::Turbulence) => {
-                    if self.vector()? != [0.0; 3] {
-                        self.note_left_out("turbulence of irid", lexeme.place)?;
-                    }
-                }
+                Item::Word(Keyword::Thickness) => film.thickness = self.float()?,
+                // Of a vector, the first part counts (a fact of the language).
+                Item::Word(Keyword::Turbulence) => film.turbulence = self.vector()?[0],
                 _ => return Err(self.unexpected(&lexeme, "a part of irid")),
             }
         }
-        *irid = (amount != 0.0).then_some([amount, thickness]);
+        *irid = (film.amount != 0.0).then_some(film);
         Ok(())
     }
 

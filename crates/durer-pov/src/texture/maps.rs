@@ -182,6 +182,7 @@ impl Parser<'_> {
         if items.len() < length {
             return Err(Error::invalid(self.here(), format!("this pattern needs {length} texture blocks")));
         }
+        self.end_of_list(&kind)?;
         let depth = 1 + items.iter().map(Texture::depth).max().unwrap_or(0);
         let map = Rc::new(Map::list(items, self.check_map_depth(depth)?));
         Ok(Texture::Patterned { pattern: self.plain_pattern(kind), map })

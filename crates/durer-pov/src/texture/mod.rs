@@ -1,5 +1,6 @@
 //! Textures: pigments, finishes, layers, materials, and the grammar of their blocks.
 
+mod density_file;
 mod finish;
 mod images;
 mod interior;
@@ -19,7 +20,7 @@ use crate::parser::{Item, Parser};
 use crate::transform::Matrix;
 use crate::value::Value;
 
-pub(crate) use finish::Finish;
+pub(crate) use finish::{Film, Finish};
 pub(crate) use interior::{Interior, Material};
 pub(crate) use maps::{ColorMap, Map};
 pub(crate) use normal::{Normal, NormalKind, SlopeMap};

@@ -33,7 +33,7 @@ pub(crate) struct Normal {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NormalKind {
     Pattern(PatternKind),
-    /// Facets of about this size.
+    /// Facets, tilted by this much.
     Facets(f64),
 }
 
@@ -105,6 +105,7 @@ impl Parser<'_> {
                     if let Some(list) = self.normal_list(kind, &mut normal.amount)? {
                         normal.normals = Some(list);
                     }
+                    self.end_of_list(kind)?;
                 }
                 normal.kind = Some(kind);
                 normal.is_bump_map = bump_size.is_some();
@@ -156,6 +157,11 @@ impl Parser<'_> {
         if comma || self.starts_number()? { self.float().map(Some) } else { Ok(None) }
     }
 
+    /// The normal that the entries of lists and maps start from: that of the default texture.
+    fn default_normal(&self) -> Normal {
+        self.defaults.normal.as_ref().map_or_else(Normal::default, |normal| (**normal).clone())
+    }
+
     /// Reads the normals after the word of a pattern with a list.
     fn normal_list(&mut self, kind: &PatternKind, amount: &mut f64) -> Result<Option<Rc<Map<Normal>>>> {
         let Some(length) = kind.list_length() else { return Ok(None) };
@@ -165,12 +171,13 @@ impl Parser<'_> {
         if self.peek_word()? != Some(Keyword::Normal) {
             return Ok(None);
         }
-        let mut normals = vec![Normal::default(); length];
+        let base = self.default_normal();
+        let mut normals = vec![base.clone(); length];
         for normal in &mut normals {
             if !self.take_word(Keyword::Normal)? {
                 break;
             }
-            *normal = self.nested(|r| r.normal_block(&Normal::default()))?;
+            *normal = self.nested(|r| r.normal_block(&base))?;
             self.skip_comma()?;
         }
         let depth = 1 + normals.iter().map(Normal::depth).max().unwrap_or(0);
@@ -210,7 +217,7 @@ impl Parser<'_> {
                 self.next()?;
                 let given = self.float()?;
                 if given <= 0.0 {
-                    let text = format!("the size of facets must be positive, not {given}");
+                    let text = format!("coords of facets must be positive, not {given}");
                     return Err(Error::invalid(place, text));
                 }
                 *size = given;
@@ -255,8 +262,9 @@ impl Parser<'_> {
             self.expect(Mark::BraceClose)?;
             return Ok(known);
         }
-        let entries = self
-            .map_entries(is_mean, |r| r.nested(|r| r.normal_items(&Normal::default(), Mark::SquareClose)))?;
+        let base = self.default_normal();
+        let entries =
+            self.map_entries(is_mean, |r| r.nested(|r| r.normal_items(&base, Mark::SquareClose)))?;
         self.end_of_map(entries.is_empty())?;
         let depth = 1 + entries.iter().map(|(_, normal)| normal.depth()).max().unwrap_or(0);
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
+use crate::lexer::Mark;
 use crate::noise_pattern::Turbulence;
 use crate::parser::Parser;
 use crate::pattern_function;
@@ -28,6 +29,8 @@ pub(crate) enum PatternKind {
     Ramp(Rc<durer_scene::Ramp>, Place),
     /// The grey value of a pigment.
     GreyOf(Rc<super::Pigment>),
+    /// The inside of an object, and the place of its word.
+    Inside(Rc<durer_scene::Object>, Place),
     /// Textures by the indices of a picture.
     Materials(Arc<durer_scene::ImageMap>),
     /// The mean of all entries of a map.
@@ -38,7 +41,7 @@ impl PatternKind {
     /// The number of entries of its list; `None` for patterns with a map.
     pub(crate) fn list_length(&self) -> Option<usize> {
         match self {
-            Self::Checker | Self::Brick { .. } => Some(2),
+            Self::Checker | Self::Brick { .. } | Self::Inside(..) => Some(2),
             Self::Hexagon => Some(3),
             Self::Square => Some(4),
             Self::Triangular => Some(6),
@@ -145,6 +148,7 @@ impl Parser<'_> {
             Some(Keyword::Square) => PatternKind::Square,
             Some(Keyword::Triangular) => PatternKind::Triangular,
             Some(Keyword::Average) => PatternKind::Average,
+            Some(Keyword::Object) => return self.nested(Self::inside_kind).map(Some),
             Some(Keyword::Brick) => match base {
                 Some(bricks @ PatternKind::Brick { .. }) => bricks,
                 _ => PatternKind::Brick { size: [8.0, 3.0, 4.5], mortar: 0.5 },
@@ -163,6 +167,20 @@ impl Parser<'_> {
         };
         self.next()?;
         Ok(Some(kind))
+    }
+
+    /// Reads `object {` and the object. The items of its list and the brace behind them follow.
+    fn inside_kind(&mut self) -> Result<PatternKind> {
+        self.next()?;
+        let place = self.here();
+        self.expect(Mark::BraceOpen)?;
+        let object = self.volume_for_pattern(place)?;
+        Ok(PatternKind::Inside(Rc::new(object), place))
+    }
+
+    /// Reads the brace behind the list of an `object` pattern.
+    pub(crate) fn end_of_list(&mut self, kind: &PatternKind) -> Result<()> {
+        if matches!(kind, PatternKind::Inside(..)) { self.expect(Mark::BraceClose) } else { Ok(()) }
     }
 
     /// The pattern of a word just read, with the scene's noise generator.

@@ -95,7 +95,7 @@ impl Pigment {
 fn default_list(kind: &PatternKind) -> Vec<Colour> {
     let opaque = |r, g, b| [r, g, b, 0.0, 0.0];
     match kind {
-        PatternKind::Checker => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0)],
+        PatternKind::Checker | PatternKind::Inside(..) => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0)],
         PatternKind::Hexagon => vec![opaque(0.0, 0.0, 1.0), opaque(0.0, 1.0, 0.0), opaque(1.0, 0.0, 0.0)],
         PatternKind::Brick { .. } => vec![opaque(0.5, 0.5, 0.5), opaque(0.6, 0.15, 0.15)],
         PatternKind::Square => {
@@ -194,6 +194,7 @@ impl Parser<'_> {
                 if let Some(list) = self.list(&kind)? {
                     pigment.paint = Some(list);
                 }
+                self.end_of_list(&kind)?;
                 pigment.body = Body::Patterned(kind);
                 continue;
             }

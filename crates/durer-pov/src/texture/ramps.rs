@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use durer_math::Vec3;
-use durer_scene::{Crackle, Fractal, FractalMap, Ramp};
+use durer_scene::{Crackle, Fractal, FractalMap, GridBetween, Ramp};
 
 use super::PatternKind;
 use crate::diagnostics::{Error, Place, Result};
@@ -52,6 +52,10 @@ impl Parser<'_> {
                 self.next()?;
                 let read = self.image_block()?;
                 Ramp::Image(read.map, read.value)
+            }
+            Keyword::DensityFile => {
+                self.next()?;
+                Ramp::Density(self.density_grid()?, GridBetween::Nearest)
             }
             Keyword::PigmentPattern => {
                 self.next()?;
@@ -103,6 +107,19 @@ impl Parser<'_> {
         let place = self.here();
         let Some(PatternKind::Ramp(ramp, _)) = kind else { return Ok(false) };
         match (word, Rc::make_mut(ramp)) {
+            (Keyword::Interpolate, Ramp::Density(_, between)) => {
+                self.next()?;
+                let kind = self.float()?;
+                *between = match kind {
+                    0.0 => GridBetween::Nearest,
+                    1.0 => GridBetween::Linear,
+                    2.0 => GridBetween::Cubic,
+                    _ => {
+                        let text = format!("interpolate of a density_file is 0, 1 or 2, not {kind}");
+                        return Err(Error::invalid(place, text));
+                    }
+                };
+            }
             (Keyword::Control0, Ramp::Quilted(bottom, _)) => {
                 self.next()?;
                 *bottom = self.float()?;

@@ -9,6 +9,7 @@ use crate::light::{Area, Beamed, RenderLight};
 use crate::material::{Finish, Incidence, View};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
+use crate::texture::Stir;
 use crate::vector::dot;
 use crate::world::World;
 use core::f64::consts::TAU;
@@ -74,7 +75,7 @@ impl<'w> Lamps<'w> {
                     self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
                 }
                 if let Some(irid) = &finish.irid {
-                    self.iridesce(irid, &before, coats.bent(k), spots);
+                    self.iridesce((irid, finish.stirred.as_deref()), &before, coats.bent(k), spots);
                 }
             }
             self.aim(isa, lamp, spots);
@@ -236,15 +237,28 @@ impl<'w> Lamps<'w> {
     }
 
     /// Multiplies what a layer added to the light by the interference of a thin film.
-    fn iridesce(&mut self, irid: &Irid, before: &[Rgb8], bent: Option<Bent<'_>>, spots: &[Spot]) {
+    fn iridesce(
+        &mut self,
+        (irid, stirred): (&Irid, Option<&Stir>),
+        before: &[Rgb8],
+        bent: Option<Bent<'_>>,
+        spots: &[Spot],
+    ) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         for (i, ((Falling { at, .. }, to), before)) in falling.iter().zip(places).zip(before).enumerate() {
             let view = bent.map_or(&spots[i].view, |(views, _)| &views[i]);
             let mut light = *to.light;
+            let thickness = match stirred {
+                None => F8::splat(irid.thickness),
+                Some(stir) => {
+                    let varied = stir.scalar(spots[i].hits.p) * 2.0 - F8::ONE;
+                    (varied * irid.turbulence + F8::ONE) * irid.thickness
+                }
+            };
             for lane in at.live.lanes() {
                 let way = at.cosine.0[lane].abs() + view.cosine.0[lane].abs();
                 let factor = |wavelength: f64| {
-                    let turns = irid.thickness * way / wavelength;
+                    let turns = thickness.0[lane] * way / wavelength;
                     1.0 + irid.amount * elementary::cos(TAU * turns)
                 };
                 let (old, new) = (before.lane(lane), light.lane(lane));

@@ -183,13 +183,16 @@ impl<'w> Onward<'w> {
 }
 
 /// The direction of mirror reflection. Where the normal is perturbed, a direction into the surface is
-/// mirrored again, by the unperturbed normal.
+/// mirrored again, by the unperturbed normal; a perturbed normal that points away from the eye
+/// counts for nothing (facts of the scene language).
 #[inline(always)]
 fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     let direction = reflect(view.eye, view.normal);
     let Some(plain) = plain else { return direction };
     let enters = dot(direction, plain.normal).lt(F8::ZERO);
-    enters.select3(reflect(direction, plain.normal), direction)
+    let kept = enters.select3(reflect(direction, plain.normal), direction);
+    let turned_away = F8::ZERO.lt(dot(view.eye, view.normal));
+    turned_away.select3(reflect(view.eye, plain.normal), kept)
 }
 
 /// The direction behind a surface with perturbed normals: one that would come back is mirrored by

@@ -243,7 +243,11 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
         left = left * medium.shadow_after(spot.hits.t * speed, goes_on);
     }
     if let Some(power) = medium.caustics {
-        let cosine = dot(spot.hits.ng, direction).abs() / speed;
+        let ng = spot.hits.ng;
+        // Bumps perturb the normal on the side from which the ray comes.
+        let facing = F8::ZERO.lt(dot(ng, direction)).select3(ng * F8::splat(-1.0), ng);
+        let normal = world.paints[look.paint as usize].top_normal(spot.hits.p, facing, goes_on);
+        let cosine = dot(normal, direction).abs() / speed;
         left = left * (F8::ONE + power.lanes(cosine, goes_on));
     }
     spot.paths.factor = left;

@@ -3,14 +3,18 @@
 use super::metal::tint;
 use crate::lanes::Rgb8;
 use crate::power::Power;
+use crate::texture::Stir;
 use crate::vector::{dot, reflect};
 use durer_math::{F8, M8, Vec3, elementary};
-use durer_scene::{Irid, Rgb};
+use durer_scene::{Irid, Octaves, Rgb, Turbulence};
 
 /// From this size on, Phong's highlight is cut off where its cosine is [`PHONG_END`] (a fact of the
 /// scene language).
 const PHONG_SHARP: f64 = 60.0;
 const PHONG_END: f64 = 0.0008;
+
+/// The octaves of noise by which the thickness of a film varies (a fact of the scene language).
+const FILM_OCTAVES: u32 = 5;
 
 /// A finish with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +34,8 @@ pub(crate) struct Finish {
     pub(crate) mirror: Option<Box<Mirror>>,
     pub(crate) conserve_energy: bool,
     pub(crate) irid: Option<Irid>,
+    /// What the thickness of the film varies by.
+    pub(crate) stirred: Option<Box<Stir>>,
     /// Whether the scene's lights have any effect.
     pub(crate) is_lit: bool,
 }
@@ -105,6 +111,11 @@ impl Finish {
             }),
             conserve_energy: f.conserve_energy,
             irid: f.irid,
+            stirred: f.irid.filter(|irid| irid.turbulence != 0.0).map(|irid| {
+                let octaves = Octaves { count: FILM_OCTAVES, lambda: 2.0, omega: 0.5 };
+                let amount = Vec3::new(1.0, 1.0, 1.0);
+                Box::new(Stir::new(&Turbulence { amount, octaves, old: irid.old }))
+            }),
             is_lit: diffuse != 0.0 || diffuse_back != 0.0 || phong != 0.0 || specular != 0.0,
         }
     }

@@ -18,22 +18,30 @@ pub(crate) enum Grains {
 }
 
 thread_local! {
-    /// The noise of the world that this thread is building.
-    static CURRENT: RefCell<Grains> = const { RefCell::new(Grains::Own) };
+    /// The noise of the world that this thread is building, and its number of waves.
+    static CURRENT: RefCell<(Grains, u32)> = const { RefCell::new((Grains::Own, WAVES)) };
 }
 
-/// Runs `build`, in which [`Grains::current`] is `grains`.
-pub(crate) fn building_with<T>(grains: Grains, build: impl FnOnce() -> T) -> T {
-    let before = CURRENT.with(|current| current.replace(grains));
+/// The number of waves where a scene says none.
+const WAVES: u32 = 10;
+
+/// Runs `build`, in which [`Grains::current`] is `grains` and [`number_of_waves`] is `waves`.
+pub(crate) fn building_with<T>(grains: Grains, waves: u32, build: impl FnOnce() -> T) -> T {
+    let before = CURRENT.with(|current| current.replace((grains, waves)));
     let built = build();
     CURRENT.with(|current| current.replace(before));
     built
 }
 
+/// The number of centres of waves in the world that this thread is building.
+pub(crate) fn number_of_waves() -> u32 {
+    CURRENT.with(|current| current.borrow().1)
+}
+
 impl Grains {
     /// The noise of the world that this thread is building.
     pub(crate) fn current() -> Self {
-        CURRENT.with(|current| current.borrow().clone())
+        CURRENT.with(|current| current.borrow().0.clone())
     }
 
     /// The noise at some points, about zero.

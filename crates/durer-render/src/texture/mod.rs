@@ -18,7 +18,7 @@ mod wave;
 
 pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
-pub(crate) use self::grains::{Grains, building_with};
+pub(crate) use self::grains::{Grains, building_with, number_of_waves};
 pub(crate) use self::place::Place;
 
 use durer_math::lanes::LANES;
@@ -376,6 +376,23 @@ impl RenderTexture {
                 Self::Fields(Box::new(Weights::new(fields, &around, paint)?))
             }
         })
+    }
+
+    /// The normals of the outermost layer at some points, perturbed from `n`. Patterns of textures
+    /// perturb nothing here.
+    pub(crate) fn top_normal(
+        &self,
+        p: Point3<F8>,
+        n: durer_math::Vec3<F8>,
+        live: M8,
+    ) -> durer_math::Vec3<F8> {
+        let Self::Layers(coats) = self else { return n };
+        let Some(normal) = coats.last().and_then(|coat| coat.normal.as_ref()) else { return n };
+        let mut unit = n;
+        for i in live.lanes() {
+            unit.set_lane(i, crate::vector::unit(n.lane(i)));
+        }
+        normal.perturbed(p, unit, live)
     }
 
     /// The factor of light that passes the texture at some points.

@@ -113,7 +113,7 @@ impl RenderNormal {
         }
         let moved = match &self.body {
             Body::Height(landscape) => own - landscape.gradient(p) * (DEPTH * landscape.amount),
-            Body::Push(pusher, amount) => own + pusher.vector(p) * *amount,
+            Body::Push(pusher, amount) => own + pusher.vector(p, own) * *amount,
             Body::Picture(picture, value, amount) => own - picture.differences(p, *value) * *amount,
             Body::Normals(blend) => match blend.at(p) {
                 Some(Shown::One(i)) => blend.entry(i).at(p, own),

@@ -1,41 +1,27 @@
 //! Patterns made of random numbers and points, one in each unit cube.
 
-use durer_math::{F8, Point3, Vec3, elementary, noise};
-use durer_scene::Crackle;
+use durer_math::{F8, Point3, Vec3, elementary};
+use durer_scene::{CellNumbers, Crackle};
 
+use crate::texture::Grains;
 use crate::vector::floor;
-
-/// Mixes the bits of a cell's coordinates: the last rounds of A. Appleby's MurmurHash3.
-fn hash(cell: [f64; 3]) -> u64 {
-    let [x, y, z] = cell.map(|c| c as i64 as u64);
-    let mut h = x.wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        ^ y.wrapping_mul(0xc2b2_ae3d_27d4_eb4f)
-        ^ z.wrapping_mul(0x1656_67b1_9e37_79f9);
-    h = (h ^ h >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
-    h = (h ^ h >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    h ^ h >> 33
-}
-
-/// A number from 0 to 1 made of 21 bits.
-fn fraction(bits: u64) -> f64 {
-    const PART: u64 = 1 << 21;
-    (bits % PART) as f64 / PART as f64
-}
 
 /// The random number of the unit cube of a point.
 pub(in crate::texture) fn cell_number(p: Point3) -> f64 {
-    let cell = |x| floor(x + super::super::cells::BORDER);
-    fraction(hash([cell(p.x), cell(p.y), cell(p.z)]))
+    let [number, ..] = CellNumbers::get().of(p.to_array().map(|x| floor(x + super::super::cells::BORDER)));
+    number
 }
 
 /// How the distances to random points are measured and combined.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Points {
     form: Vec3,
     metric: Metric,
     /// The distance along a fourth axis, as the metric sums it.
     fourth: f64,
     solid: bool,
+    /// The noise of what all points with the same nearest point share.
+    grains: Grains,
 }
 
 /// How a distance is made of the differences of coordinates.
@@ -73,17 +59,23 @@ impl Points {
             2.0 => Metric::Euclid,
             e => Metric::Power(e),
         };
-        Self { form: crackle.form, metric, fourth: metric.part(crackle.offset), solid: crackle.solid }
+        Self {
+            form: crackle.form,
+            metric,
+            fourth: metric.part(crackle.offset),
+            solid: crackle.solid,
+            grains: Grains::current(),
+        }
     }
 
-    /// The sums for the three nearest points, and the cell of the nearest point with the point.
-    fn nearest(&self, p: Point3) -> ([f64; 3], [f64; 3], [f64; 3]) {
+    /// The sums for the three nearest points, and the nearest point.
+    fn nearest(&self, p: Point3) -> ([f64; 3], [f64; 3]) {
         let [x, y, z] = p.to_array();
         let own = [floor(x), floor(y), floor(z)];
         let within = [x - own[0], y - own[1], z - own[2]];
-        // The sums for the three nearest points, the nearest point and its cell.
         let mut nearest = [f64::INFINITY; 3];
-        let (mut point, mut cell) = (own, own);
+        let mut point = own;
+        let numbers = CellNumbers::get();
         let mut visit = |step: [i32; 3]| {
             let offset = step.map(f64::from);
             // The nearest that a point in that cell can be.
@@ -97,15 +89,13 @@ impl Points {
             if least >= reach {
                 return;
             }
-            let bits = hash(core::array::from_fn(|axis| own[axis] + offset[axis]));
-            let at: [f64; 3] =
-                core::array::from_fn(|axis| offset[axis] + fraction(bits >> (21 * axis as u32)));
+            let point_within = numbers.of(core::array::from_fn(|axis| own[axis] + offset[axis]));
+            let at: [f64; 3] = core::array::from_fn(|axis| offset[axis] + point_within[axis]);
             let part = |axis: usize| self.metric.part(at[axis] - within[axis]);
             let sum = part(0) + part(1) + part(2);
             if sum < nearest[0] {
                 nearest = [sum, nearest[0], nearest[1]];
                 point = core::array::from_fn(|axis| own[axis] + at[axis]);
-                cell = core::array::from_fn(|axis| own[axis] + offset[axis]);
             } else if sum < nearest[1] {
                 nearest = [nearest[0], sum, nearest[1]];
             } else if sum < nearest[2] {
@@ -115,7 +105,7 @@ impl Points {
         for &step in &NEAR_FIRST {
             visit(step);
         }
-        (nearest, point, cell)
+        (nearest, point)
     }
 
     /// Points that are only asked for the nearest.
@@ -124,21 +114,18 @@ impl Points {
         Self::new(&crackle)
     }
 
-    /// A random vector for all points nearest to one of the points, from -1 to 1 along each axis.
+    /// The noise vector of the random point nearest to a point.
     pub(super) fn vector(&self, p: Point3) -> Vec3 {
-        let (_, _, [x, y, z]) = self.nearest(p);
-        // Other numbers than those of the point.
-        let bits = hash([x + 0.0, y - 4096.0, z + 8192.0]);
-        let part = |k: u32| fraction(bits >> (21 * k)) * 2.0 - 1.0;
-        Vec3::new(part(0), part(1), part(2))
+        let (_, [x, y, z]) = self.nearest(p);
+        self.grains.vector(Point3::new(x, y, z))
     }
 
     /// The value at a point.
     pub(super) fn value(&self, p: Point3) -> f64 {
-        let (nearest, point, _) = self.nearest(p);
+        let (nearest, point) = self.nearest(p);
         if self.solid {
             let [x, y, z] = point.map(F8::splat);
-            let n = noise::values([&x, &y, &z]).0[0];
+            let n = self.grains.values(Vec3 { x, y, z }).0[0];
             return ((n + 1.052_42) * 0.489_855_82).clamp(0.0, 1.0);
         }
         let [first, second, third] = nearest.map(|sum| self.metric.distance(sum + self.fourth));

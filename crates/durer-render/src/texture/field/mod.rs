@@ -6,6 +6,7 @@
 mod crackle;
 mod formulas;
 mod fractal;
+mod inside;
 mod noise;
 mod push;
 mod ripples;
@@ -14,13 +15,15 @@ pub(super) use crackle::cell_number;
 pub(crate) use noise::Stir;
 pub(super) use push::Pusher;
 
+use std::sync::Arc;
+
 use super::cells::Cutter;
 use super::{Grains, Picture, RenderPigment};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
 use durer_scene::tape::Tape;
-use durer_scene::{Fractal, Grain, ImageValue, Ramp};
+use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Ramp};
 use ripples::Centres;
 
 /// A [`Ramp`] with its constants precomputed.
@@ -48,6 +51,8 @@ pub(crate) enum Field {
     Pigment(Box<RenderPigment>),
     Picture(Picture, ImageValue),
     Kind(Cutter),
+    Inside(inside::Volume),
+    Density(Arc<DensityGrid>, GridBetween),
 }
 
 impl Field {
@@ -77,6 +82,8 @@ impl Field {
             Ramp::Crackle(crackle) => Self::Crackle(Points::new(crackle)),
             Ramp::Fractal(fractal) => Self::Fractal(*fractal),
             Ramp::Image(map, value) => Self::Picture(Picture::new(map), *value),
+            Ramp::Inside(object) => Self::Inside(inside::Volume::new(object)),
+            Ramp::Density(grid, between) => Self::Density(grid.clone(), *between),
             Ramp::Kind(cells) => Self::Kind(Cutter::new(*cells)),
             Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
             Ramp::Pigment(pigment) => {
@@ -109,6 +116,8 @@ impl Field {
             Self::Pigment(pigment) => pigment.at(p).rgb.luminance(),
             Self::Picture(picture, value) => picture.value(p, *value),
             Self::Kind(cutter) => cutter.kind(p) as f64,
+            Self::Inside(volume) => volume.value(p),
+            Self::Density(grid, between) => grid.value(p.to_array(), *between),
             Self::Marble(None) => p.x,
             _ => {
                 let lanes = self.values(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::first(1));

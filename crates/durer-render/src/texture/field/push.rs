@@ -6,7 +6,7 @@ use durer_scene::Push;
 use super::crackle::Points;
 use super::ripples::Centres;
 use crate::texture::Grains;
-use crate::vector::floor;
+use crate::vector::{dot, floor};
 
 /// A [`Push`] with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,11 @@ pub(in crate::texture) enum Pusher {
 /// The number of octaves of wrinkles.
 const OCTAVES: usize = 10;
 
-/// The factor of the random numbers of facets. With it their spread is that of POV-Ray's.
-const FACET: f64 = 1.12;
+/// The factor of a cushion's slopes, 2/sqrt(3): with it the slope at a corner is 1.
+const QUILT: f64 = 1.154_700_538_379_251_5;
+
+/// The number of random points of facets in each unit along an axis (a fact of the scene language).
+const FACETS: f64 = 10.0;
 
 impl Pusher {
     pub(in crate::texture) fn new(push: &Push) -> Self {
@@ -33,12 +36,12 @@ impl Pusher {
             Push::Wrinkles => Self::Wrinkles(Grains::current()),
             Push::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
             &Push::Quilted(bottom, top) => Self::Quilted(bottom, top),
-            &Push::Facets(size) => Self::Facets(size, Points::of_cells()),
+            &Push::Facets(amount) => Self::Facets(amount, Points::of_cells()),
         }
     }
 
-    /// The vector at a point.
-    pub(in crate::texture) fn vector(&self, p: Point3) -> Vec3 {
+    /// The vector at a point with the unit normal `n`.
+    pub(in crate::texture) fn vector(&self, p: Point3, n: Vec3) -> Vec3 {
         match self {
             Self::Bumps(grains) => grains.vector(p),
             Self::Dents(grains) => {
@@ -60,9 +63,12 @@ impl Pusher {
             Self::Quilted(bottom, top) => {
                 let half = |x: f64| x - floor(x) - 0.5;
                 let v = Vec3::new(half(p.x), half(p.y), half(p.z));
-                v * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top)
+                v * (QUILT * super::formulas::quilt_curve(crate::vector::length(v), *bottom, *top))
             }
-            Self::Facets(size, points) => points.vector((p.to_vec() * (1.0 / size)).to_point()) * FACET,
+            Self::Facets(amount, points) => {
+                let v = points.vector((p.to_vec() * FACETS).to_point());
+                (v - n * dot(v, n)) * *amount
+            }
         }
     }
 }

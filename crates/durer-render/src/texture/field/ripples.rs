@@ -4,16 +4,16 @@ use core::f64::consts::TAU;
 use durer_math::{Point3, Vec3, elementary};
 use durer_scene::Ripples;
 
-use crate::texture::Grains;
+use crate::texture::{Grains, number_of_waves};
 use crate::vector::{floor, length, unit};
 
-/// The number of centres.
-const COUNT: usize = 10;
+/// The number of centres for which the heights and slopes below are given.
+const USUAL: f64 = 10.0;
 
 /// The centres of waves, all in the unit cube.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Centres {
-    centres: [Centre; COUNT],
+    centres: Box<[Centre]>,
     phase: f64,
 }
 
@@ -45,23 +45,26 @@ impl Centres {
         };
         let grains = Grains::current();
         let is_learned = grains != Grains::Own;
+        let count = number_of_waves();
+        let share = USUAL / f64::from(count);
         let (height, slope) = if is_learned { (LEARNED_HEIGHT, LEARNED_SLOPE) } else { (HEIGHT, SLOPE) };
+        let (height, slope) = (height * share, slope * share);
         let mut learned_state = LEARNED_STATE;
-        let centre = |i: usize| {
+        let centre = |i: u32| {
             let mut at = Point3::new(random(), random(), random());
-            let mut own = if ripples.waves { 0.15 + 0.09 * i as f64 } else { 1.0 };
+            let mut own = if ripples.waves { 0.15 + 0.09 * f64::from(i % USUAL as u32) } else { 1.0 };
             if is_learned {
-                at = unit(grains.vector(Point3::new(i as f64, 0.0, 0.0))).to_point();
+                at = unit(grains.vector(Point3::new(f64::from(i), 0.0, 0.0))).to_point();
                 if ripples.waves {
                     own = f64::from(learned_state >> 16 & 0x7fff) / 32767.0 + 0.01;
                     learned_state = learned_state.wrapping_mul(1_812_433_253).wrapping_add(12_345);
                 }
             }
-            let height = if ripples.waves { height / own } else { 0.5 / COUNT as f64 };
-            let slope = if ripples.waves { slope / own } else { 1.0 / COUNT as f64 };
+            let height = if ripples.waves { height / own } else { 0.5 / f64::from(count) };
+            let slope = if ripples.waves { slope / own } else { 1.0 / f64::from(count) };
             Centre { at, frequency: own * ripples.frequency, height, slope }
         };
-        Self { centres: core::array::from_fn(centre), phase: ripples.phase }
+        Self { centres: (0..count).map(centre).collect(), phase: ripples.phase }
     }
 
     /// The mean slope of the waves at a point.
