@@ -269,7 +269,7 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
     sgn = event.sign
     n, d = hit["normal"], ray[3:6]
     # A touch of an edge has the normal of a face beside it.
-    if isinstance(leaf, Loops) and not event.faces:
+    if isinstance(leaf, Loops) and not event.faces or event.any_sign and hit["sign"] and event.normals:
         along = sum(F(float(a)) * F(b) for a, b in zip(n, d))
         if abs(along) > 1e-9 * max(map(abs, d)) and (along > 0) != (hit["sign"] > 0):
             bad("sign against the reported normal", event)
@@ -400,7 +400,8 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                     wrong.append("cluster away from tangents and edges")
                 left = [pair for pair in left if pair not in held]
                 continue
-            mine = [pair for pair in held if pair[0].sign == h["sign"]] or held
+            mine = [pair for pair in held if pair[0].sign == h["sign"] and not pair[0].any_sign]
+            mine = mine or sorted(held, key=lambda pair: not close_normal(*pair, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
             if certain or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
                 mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
             if not mine:
@@ -412,7 +413,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 if not (corner and twin):
                     wrong.append("extra crossing")
                 continue
-            if mine[0][0].sign != h["sign"] and (mine[0][0].optional or len(mine[0][0].normals) > 1):
+            if mine[0][0].sign != h["sign"] and not (mine[0][0].any_sign and h["sign"]) and (mine[0][0].optional or len(mine[0][0].normals) > 1):
                 # One of several at a corner.
                 clear = False
                 loose.append(h)

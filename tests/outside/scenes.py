@@ -7,6 +7,7 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
+from lathes import lathe
 from prisms import curved_prism, prism
 from rounded import blob, isosurface, julia, superellipsoid
 from solids import Region, lemon, ovus, sor
@@ -498,7 +499,7 @@ UNITED = [k for k in MAKERS if k != "plane"]
 # Put together from pieces, or rounded: slower to examine.
 MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
-    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface,
+    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe,
 }
 
 

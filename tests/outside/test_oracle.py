@@ -10,6 +10,8 @@ import re
 import unittest
 from fractions import Fraction as F
 
+import numpy as np
+
 import scenes
 from check_trace import Expected, in_world, make_ray
 from exact import Number, holds, sign
@@ -86,6 +88,35 @@ def between(a, b):
         bits *= 2
 
 
+def profile_of(body):
+    """The pieces of a lathe's profile, each two polynomials in numpy's manner: through four places that its definition names."""
+    word = next((w for w in ("quadratic_spline", "cubic_spline", "bezier_spline") if w in body), "linear_spline")
+    x = [float(n) for n in numbers(body)][1:]
+    line = list(zip(x[::2], x[1::2]))
+    ws, pieces = np.array([0, 1 / 3, 2 / 3, 1]), []
+
+    def hermite(a, b, m, n):
+        return lambda w: (1 + 2 * w) * (1 - w) ** 2 * a + w * (1 - w) ** 2 * m + w * w * (3 - 2 * w) * b - w * w * (1 - w) * n
+
+    for i in range(0, len(line), 4) if word == "bezier_spline" else range(len(line) - {"l": 1, "q": 2, "c": 3}[word[0]]):
+        piece = []
+        for axis in (0, 1):
+            a, b, c, d = ([p[axis] for p in line[i : i + 4]] + [0, 0])[:4]
+            if word == "bezier_spline":
+                at_ = hermite(a, d, 3 * (b - a), 3 * (d - c))
+            elif word == "cubic_spline":
+                at_ = hermite(b, c, (c - a) / 2, (d - b) / 2)
+            elif word == "quadratic_spline":
+                # The parabola that has the first point at -1, the second at 0 and the third at 1.
+                at_ = lambda w: a * w * (w - 1) / 2 - b * (w - 1) * (w + 1) + c * w * (w + 1) / 2
+            else:
+                at_ = lambda w: a + (b - a) * w
+            degree = {"l": 1, "q": 2}.get(word[0], 3)
+            piece.append(np.poly1d(np.polyfit(ws, [at_(w) for w in ws], degree)))
+        pieces.append(piece)
+    return pieces
+
+
 def value_of(body, p):
     """Negative inside a solid that is put together, read from its text, in floats: another make again."""
     word = body.split()[0]
@@ -116,6 +147,16 @@ def value_of(body, p):
         radius, h, inner = x[3], x[5], x[8]
         major = math.sqrt(inner**2 - (h / 2) ** 2) - radius
         return max(-p[1], p[1] - h, math.hypot(rho + major, p[1] - h / 2) - inner)
+    if word == "lathe":
+        # The walls beyond the point, by the roots that numpy finds; of a point next to one nothing is told.
+        near, odd = math.inf, False
+        for r, y in profile_of(body):
+            for w in np.roots((y - p[1]).coeffs):
+                if abs(w.imag) < 1e-9 and -1e-9 < w.real < 1 + 1e-9:
+                    near = 0.0 if w.imag else near
+                    near = min(near, abs(w.real), abs(1 - w.real), abs(abs(r(w.real)) - rho))
+                    odd ^= abs(r(w.real)) > rho
+        return -near if odd else near
     if word == "superellipsoid":
         e, n = x
         return (abs(p[0]) ** (2 / e) + abs(p[1]) ** (2 / e)) ** (e / n) + abs(p[2]) ** (2 / n) - 1
@@ -213,27 +254,27 @@ class Oracle(unittest.TestCase):
                     self.assertTrue((before, after) == wanted if wanted else before == after, (leaf.sdl(), ray, e))
 
     def test_solids_that_are_put_together_are_those_of_their_text(self):
-        for kind in ("sor", "ovus", "lemon", "superellipsoid", "julia"):
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "julia", "lathe"):
             told = 0
             with self.subTest(kind):
                 for rng, _, leaf, ray in self.cases(kind, 12):
                     body = scenes.times(leaf.size, tuple(F(rng.uniform(-1.2, 1.2)) for _ in range(3)))
-                    middle = sum(leaf.heights[:: len(leaf.heights) - 1]) / 2 if kind in ("sor", "ovus", "lemon") else 0
+                    middle = sum(leaf.heights[:: len(leaf.heights) - 1]) / 2 if kind in ("sor", "ovus", "lemon") else rng.choice(leaf.ends) if kind == "lathe" else 0
                     p = (body[0], body[1] + middle, body[2])
                     theirs, ours = value_of(leaf.body, p), leaf.value(p)
-                    if abs(theirs) > 1e-9 * float(leaf.size) ** 2:
+                    if abs(theirs) > (1e-9 * float(leaf.size) ** 2 if kind != "lathe" else 1e-6 * max(1, float(leaf.size))):
                         told += 1
                         self.assertEqual(theirs < 0, ours < 0, (leaf.body, p))
             self.assertGreater(told, 100)
 
     def test_the_polynomials_of_a_solid_vanish_where_its_value_does(self):
         """The roots of the polynomials along a ray against signs of the value, which knows none of them."""
-        for kind in ("sor", "ovus", "lemon", "superellipsoid", "blob", "julia", "isosurface"):
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "blob", "julia", "isosurface", "lathe"):
             found = 0
             for rng, _, leaf, ray in self.cases(kind, 8):
                 leaf.clip, leaf.inverse = [], False
                 answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
-                if answer.within:
+                if answer.within or not leaf.solid():
                     continue
                 found += len(answer.events)
                 along = places(leaf.whole.ray(ray[:3], ray[3:6]))
@@ -242,6 +283,35 @@ class Oracle(unittest.TestCase):
                     value = leaf.value(tuple(c[0] + t * c[1] for c in along))
                     self.assertEqual(value < 0, any(holds(a, b, Number.of(t)) for a, b in answer.inside), (leaf.sdl(), ray, t))
             self.assertGreater(found, 20, kind)
+
+    def test_lathes_are_met_where_the_points_of_their_profiles_are(self):
+        """Every crossing is at the distance from the axis that the profile has at its height; and so often as the distance less the profile's changes its sign along the profile."""
+        found = 0
+        for rng, _, leaf, ray in self.cases("lathe", 20):
+            leaf.clip, leaf.inverse = [], False
+            answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+            if answer.within:
+                continue
+            (x, dx), (y, dy), (z, dz) = places(leaf.whole.ray(ray[:3], ray[3:6]))
+            pieces = profile_of(leaf.body)
+            size = float(leaf.size)
+            for e in answer.events:
+                t = e.t.rational(200)
+                rho, height = math.hypot(x + t * dx, z + t * dz), float(y + t * dy)
+                near = [abs(abs(r(w.real)) - rho) + abs(h(w.real) - height) for r, h in pieces for w in [*np.roots((h - height).coeffs), *np.roots((r - rho).coeffs), *np.roots((r + rho).coeffs)] if -1e-4 < w.real < 1.0001]
+                self.assertLess(min(near), 1e-5 * max(size, abs(height)), (leaf.sdl(), ray, e))
+                found += 1
+            if dy and leaf.closed is False:
+                changes = 0
+                for r, h in leaf.pieces:
+                    values = []
+                    for k in range(1, 40):
+                        w = F(k, 40)
+                        t = (sum(c * w**i for i, c in enumerate(h)) - y) / dy
+                        values.append((x + t * dx) ** 2 + (z + t * dz) ** 2 > sum(c * w**i for i, c in enumerate(r)) ** 2)
+                    changes += sum(a != b for a, b in zip(values, values[1:]))
+                self.assertLessEqual(changes, len(answer.events), (leaf.sdl(), ray))
+        self.assertGreater(found, 100)
 
     def test_a_sheet_is_crossed_where_its_equation_changes_sign(self):
         for kind in ("disc", "cylinder", "cone"):
