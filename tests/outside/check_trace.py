@@ -534,6 +534,9 @@ def check_spans(report, scene, ray, expected, pairs, rows):
 def check_scene(report, durer, scene, rng, count, folder):
     file, rays_file, out = folder / "scene.pov", folder / "rays.npy", folder / "hits.npz"
     file.write_text(scene.words)
+    for leaves in scene.objects:
+        for name, data in (item for leaf in leaves for item in getattr(leaf, "files", {}).items()):
+            (folder / name).write_bytes(data)
     leaves = [leaf for object_ in scene.objects for leaf in object_]
     ranges = rng.random() < 0.6
     rays = [make_ray(rng, rng.choice(leaves), ranges) for _ in range(count)]

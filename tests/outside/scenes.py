@@ -7,10 +7,12 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
+from fields import Copies, height_field, ifs, terrain_sheet
 from lathes import lathe
 from prisms import curved_prism, prism
 from rounded import blob, isosurface, julia, superellipsoid
 from solids import Region, lemon, ovus, sor
+from sphere_sweeps import sphere_sweep
 from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 
@@ -499,7 +501,8 @@ UNITED = [k for k in MAKERS if k != "plane"]
 # Put together from pieces, or rounded: slower to examine.
 MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
-    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe,
+    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe, "sphere sweep": sphere_sweep,
+    "height field": height_field, "terrain": terrain_sheet, "ifs": ifs,
 }
 
 
@@ -519,7 +522,7 @@ def leaf_of(rng, kind, clips=True):
     plain = getattr(leaf, "certain", True) and kind not in ("prism", "curved prism")
     if clips and plain and rng.random() < 0.2:
         clip(rng, leaf)
-    elif isinstance(leaf, (Solid, ZeroSet, Region)) and rng.random() < 0.12:
+    elif isinstance(leaf, (Solid, ZeroSet, Region, Copies)) and rng.random() < 0.12:
         leaf.inverse = True
     leaf.map = placement(rng)
     return leaf
