@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Event, Loops, add, cross, dot, small, sub, times
+from patches import Patch
 from solids import Region
 from zero_sets import ZeroSet
 
@@ -369,6 +370,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
     for key in {*found, *expected.events}:
         leaf = scene.objects[key[0]][0] if len(scene.objects[key[0]]) == 1 else None
         certain = leaf is None or getattr(leaf, "certain", True)
+        exact_ends = certain and getattr(leaf, "exact_ends", True)
         left, loose = list(everywhere.events[key]), []
         inside = lambda e, h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
         # Of several at a corner those whose normal is that of a crossing are that.
@@ -377,16 +379,22 @@ def matched(report, scene, ray, expected, hits, on_the_line):
         unlike = lambda h: any(h is c for c in crowded) and not any(is_plain(e, at, h) for e, at in left)
         # Where a rounded surface meets its container's face within the bracket.
         is_rim = lambda h: not certain and leaf.passes_an_edge(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"]))
+        # A patch tells what is as small as its rounding errors as a touch or a cluster; at its border a crossing counts or not, and a touch may be half of one.
+        is_patch = isinstance(leaf, Patch)
+        is_open = lambda h: h["kind"] == 2 or is_patch and h["kind"] == 1
         # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
-        for h in sorted(found[key], key=lambda h: (h["kind"] == 2, unlike(h))):
+        for h in sorted(found[key], key=lambda h: (is_open(h), unlike(h))):
             held = [pair for pair in left if inside(pair[0], h)]
-            if h["kind"] == 2:
-                report.clusters[scene.kind] += 1
+            if is_open(h):
+                report.clusters[scene.kind] += h["kind"] == 2
                 clear = False
                 # What is beyond an end of the range may have a bracket of its own, which is not told.
                 told = [e for e, _ in held if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
                 straddles = any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:])
                 sums = {sum(e.sign for e, _ in held)} | ({sum(e.sign for e in told)} if straddles else set())
+                for e, _ in held if is_patch else ():
+                    if e.optional or straddles:
+                        sums |= {s + k for s in sums for k in ((-1, 1) if e.sign == 0 else (-e.sign,))}
                 # Those that are told next to it, from one to the next.
                 reach = [h]
                 for g in reach:
@@ -402,7 +410,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 continue
             mine = [pair for pair in held if pair[0].sign == h["sign"] and not pair[0].any_sign]
             mine = mine or sorted(held, key=lambda pair: not close_normal(*pair, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
-            if certain or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
+            if exact_ends or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
                 mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
             if not mine:
                 # Into a corner and out of it again, or not at all, where the corner is only touched.
@@ -428,7 +436,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 left = [pair for pair in left if pair not in more]
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
-        beyond = lambda e: not certain and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
+        beyond = lambda e: not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
         if not all(e.optional or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left
@@ -577,7 +585,7 @@ def check_scene(report, durer, scene, rng, count, folder):
             return
     check_queries_agree(report, scene, rays, found, at, closest, anyhit["hit"])
     lines, line_at = found, at
-    if ranges and not all(getattr(leaf, "certain", True) for leaf in leaves):
+    if ranges and not all(getattr(leaf, "certain", True) and getattr(leaf, "exact_ends", True) for leaf in leaves):
         array[:, 6:] = -INF, INF
         np.save(rays_file, array)
         lines = trace(durer, file, rays_file, "all", out)

@@ -73,6 +73,8 @@ class Ball:
 
 
 class SphereSweep(Region):
+    exact_ends = False
+
     def __init__(self, body, pieces, points, directions, size):
         super().__init__(body, points, directions, size)
         # Each piece: the centre's three coordinates and the radius.
