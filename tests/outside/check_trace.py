@@ -409,7 +409,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 left = [pair for pair in left if pair not in held]
                 continue
             mine = [pair for pair in held if pair[0].sign == h["sign"] and not pair[0].any_sign]
-            mine = mine or sorted(held, key=lambda pair: not close_normal(*pair, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
+            mine = mine or sorted(held, key=lambda pair: bool(pair[0].normals) and not close_normal(*pair, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
             if exact_ends or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
                 mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
             if not mine:

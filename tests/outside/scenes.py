@@ -10,7 +10,7 @@ from shapes import (
 from fields import Copies, height_field, ifs, terrain_sheet
 from lathes import lathe
 from patches import bilinear, patch
-from prisms import curved_prism, prism
+from prisms import curved_prism, prism, straight_sweep
 from rounded import blob, isosurface, julia, superellipsoid
 from solids import Region, lemon, ovus, sor
 from sphere_sweeps import sphere_sweep
@@ -504,7 +504,7 @@ MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
     "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe, "sphere sweep": sphere_sweep,
     "height field": height_field, "terrain": terrain_sheet, "ifs": ifs,
-    "bilinear": bilinear, "patch": patch,
+    "bilinear": bilinear, "patch": patch, "sweep": straight_sweep,
 }
 
 
@@ -521,7 +521,7 @@ DECOYS = "camera { location <0, 0, -9> look_at 0 }\nlight_source { <9, 9, -9>, r
 def leaf_of(rng, kind, clips=True):
     leaf = MAKERS[kind](rng)
     # Where a clip's border is next to a rounded crossing is not decided; a tangled prism's caps have no side once they are clipped.
-    plain = getattr(leaf, "certain", True) and getattr(leaf, "exact_ends", True) and kind not in ("prism", "curved prism")
+    plain = getattr(leaf, "certain", True) and getattr(leaf, "exact_ends", True) and kind not in ("prism", "curved prism", "sweep")
     if clips and plain and rng.random() < 0.2:
         clip(rng, leaf)
     elif isinstance(leaf, (Solid, ZeroSet, Region, Copies)) and rng.random() < 0.12:
