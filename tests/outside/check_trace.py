@@ -374,7 +374,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
         left, loose = list(everywhere.events[key]), []
         inside = lambda e, h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
         # Of several at a corner those whose normal is that of a crossing are that.
-        is_plain = lambda e, at, h: e.sign == h["sign"] and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
+        is_plain = lambda e, at, h: (e.sign == h["sign"] or e.any_sign) and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
         crowded = [h for h in found[key] if any(g is not h and overlap(g, h) for g in found[key])]
         unlike = lambda h: any(h is c for c in crowded) and not any(is_plain(e, at, h) for e, at in left)
         # Where a rounded surface meets its container's face within the bracket.
