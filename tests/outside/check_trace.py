@@ -382,11 +382,23 @@ def matched(report, scene, ray, expected, hits, on_the_line):
         # A patch tells what is as small as its rounding errors as a touch or a cluster; at its border a crossing counts or not, and a touch may be half of one.
         is_patch = isinstance(leaf, Patch)
         is_open = lambda h: h["kind"] == 2 or is_patch and h["kind"] == 1
+        joined = []
         # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
         for h in sorted(found[key], key=lambda h: (is_open(h), unlike(h))):
+            if any(h is g for g in joined):
+                continue
             held = [pair for pair in left if inside(pair[0], h)]
             if is_open(h):
                 report.clusters[scene.kind] += h["kind"] == 2
+                total = h["sign"]
+                if is_patch:
+                    # Open ones that overlap are one.
+                    mine = [h]
+                    for g in mine:
+                        mine += [other for other in found[key] if is_open(other) and overlap(other, g) and not any(other is r for r in mine)]
+                    joined += mine
+                    held = [pair for pair in left if any(inside(pair[0], g) for g in mine)]
+                    total = sum(g["sign"] for g in mine)
                 clear = False
                 # What is beyond an end of the range may have a bracket of its own, which is not told.
                 told = [e for e, _ in held if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
@@ -394,13 +406,13 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 sums = {sum(e.sign for e, _ in held)} | ({sum(e.sign for e in told)} if straddles else set())
                 for e, _ in held if is_patch else ():
                     if e.optional or straddles:
-                        sums |= {s + k for s in sums for k in ((-1, 1) if e.sign == 0 else (-e.sign,))}
+                        sums |= {s - e.sign + k for s in sums for k in (-1, 0, 1)}
                 # Those that are told next to it, from one to the next.
                 reach = [h]
                 for g in reach:
                     reach += [other for other in found[key] if overlap(other, g) and not any(other is r for r in reach)]
                 beside = [g for g in loose if any(g is r for r in reach)]
-                if h["sign"] + sum(g["sign"] for g in beside) not in sums and not (leaf and leaf.clip):
+                if total + sum(g["sign"] for g in beside) not in sums and not (leaf and leaf.clip):
                     wrong.append("cluster with another sign")
                 if certain:
                     wrong.append("cluster where exact arithmetic decides")

@@ -64,6 +64,12 @@ class Tangents:
         return self.bent
 
 
+def is_flat(tangents, d, bits):
+    """Whether a direction is in the patch's plane, but for an angle of about 2^-bits."""
+    top = lambda v: max(map(abs, v))
+    return abs(dot(tangents.normal, d)) * (1 << bits) <= top(tangents.normal) * top(d)
+
+
 class Patch(Region):
     certain = exact_ends = False
 
@@ -85,8 +91,11 @@ class Patch(Region):
         flip = -1 if self.inverse else 1
         events = []
         self.met = [(t, n) for group in groups for t, n, _, _ in group]
+        d = tuple(F(x, ray[2]) for x in ray[1])
         for group in groups:
             for t, normal, on_border, turn in group:
+                # Within the patch's own plane but for some rounding errors.
+                on_border |= normal is not None and is_flat(normal, d, 44)
                 event = Event(t, flip * turn, [(normal, flip)] if normal else [], self)
                 event.optional = on_border
                 events.append(event)
@@ -101,13 +110,13 @@ class Patch(Region):
         wide = hi - lo + self.size / max(abs(F(x, ray[2])) for x in ray[1]) / (1 << 30)
         near_ = lambda t: lo - 2 * wide <= t <= hi + 2 * wide
         d = tuple(F(x, ray[2]) for x in ray[1])
-        top = lambda v: max(map(abs, v))
-        flat = lambda n: n is None or abs(dot(n.normal, d)) * (1 << 18) <= top(n.normal) * top(d)
-        return any(near_(t) for t in self.low_places(ray)) or any(near_(t.rational(100)) and flat(n) for t, n, _, _ in self.meetings(ray))
+        return any(near_(t) for t in self.low_places(ray)) or any(near_(t.rational(100)) and (n is None or is_flat(n, d, 18)) for t, n, _, _ in self.meetings(ray))
 
     def slack(self, ray):
-        """How far beyond its border, in its parameters, a patch may be met: some rounding errors of the numbers on the way there."""
-        return F(1, 1 << 44) * (1 + max(abs(F(x, ray[2])) for x in ray[0]) / self.size)
+        """How far beyond its border, in its parameters, a patch may be met: some rounding errors of the numbers on the way there and back."""
+        stretch = max(abs(x) for row in self.whole.rows for x in row) * max(abs(F(x, self.whole.w)) for row in self.whole.n for x in row)
+        moved = max(abs(F(dot(row, self.whole.c))) / self.whole.w for row in self.whole.n)
+        return F(1, 1 << 44) * stretch * (1 + (moved + max(abs(F(x, ray[2])) for x in ray[0])) / self.size)
 
 
 def bernstein(rows):
@@ -121,6 +130,7 @@ class Ruled(Patch):
 
     def __init__(self, body, first, last, points, directions, size):
         super().__init__(body, points, directions, size)
+        self.last = last
         self.a = [bernstein([F(p[i]) for p in first]) for i in range(3)]
         self.b = [minus(bernstein([F(p[i]) for p in last]), c) for i, c in enumerate(self.a)]
 
@@ -163,12 +173,13 @@ class Ruled(Patch):
                 continue
             v, t = Quotient(u, *place[0]), Quotient(u, *place[1])
             if v.against(-slack) >= 0 >= v.against(1 + slack):
-                border = border_of(u) or border_of(v)
+                # An edge that is one point is a border all around it.
+                tip = len(set(self.last)) == 1 and v.against(1 - F(1, 1 << 20)) >= 0
+                border = border_of(u) or border_of(v) or tip
                 normal, bend = self.normal(u.rational(200), v.rational(200))
-                steep = dot(normal, d)
-                turn = 0 if u.before == u.after else sign(steep)
-                # The tip of a ruling where all lines meet has none.
-                out.append((t, Tangents(normal, bend) if any(normal) else None, border or not any(normal), turn))
+                turn = 0 if u.before == u.after else sign(dot(normal, d))
+                # An edge that is one point has no normal.
+                out.append((t, Tangents(normal, bend) if any(normal) and not tip else None, border or not any(normal), turn))
         return out
 
     def low_places(self, ray):
