@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Event, Loops, add, cross, dot, small, sub, times
+from patches import Patch
 from solids import Region
 from zero_sets import ZeroSet
 
@@ -269,7 +270,7 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
     sgn = event.sign
     n, d = hit["normal"], ray[3:6]
     # A touch of an edge has the normal of a face beside it.
-    if isinstance(leaf, Loops) and not event.faces:
+    if isinstance(leaf, Loops) and not event.faces or event.any_sign and hit["sign"] and event.normals:
         along = sum(F(float(a)) * F(b) for a, b in zip(n, d))
         if abs(along) > 1e-9 * max(map(abs, d)) and (along > 0) != (hit["sign"] > 0):
             bad("sign against the reported normal", event)
@@ -369,30 +370,49 @@ def matched(report, scene, ray, expected, hits, on_the_line):
     for key in {*found, *expected.events}:
         leaf = scene.objects[key[0]][0] if len(scene.objects[key[0]]) == 1 else None
         certain = leaf is None or getattr(leaf, "certain", True)
+        exact_ends = certain and getattr(leaf, "exact_ends", True)
         left, loose = list(everywhere.events[key]), []
         inside = lambda e, h: e.t.cmp(float(h["t_lo"])) >= 0 and e.t.cmp(float(h["t_hi"])) <= 0
         # Of several at a corner those whose normal is that of a crossing are that.
-        is_plain = lambda e, at, h: e.sign == h["sign"] and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
+        is_plain = lambda e, at, h: (e.sign == h["sign"] or e.any_sign) and inside(e, h) and (not e.normals or close_normal(e, at, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
         crowded = [h for h in found[key] if any(g is not h and overlap(g, h) for g in found[key])]
         unlike = lambda h: any(h is c for c in crowded) and not any(is_plain(e, at, h) for e, at in left)
         # Where a rounded surface meets its container's face within the bracket.
         is_rim = lambda h: not certain and leaf.passes_an_edge(leaf.whole.ray(ray[:3], ray[3:6]), float(h["t_lo"]), float(h["t_hi"]))
+        # A patch tells what is as small as its rounding errors as a touch or a cluster; at its border a crossing counts or not, and a touch may be half of one.
+        is_patch = isinstance(leaf, Patch)
+        is_open = lambda h: h["kind"] == 2 or is_patch and h["kind"] == 1
+        joined = []
         # Simple ones first; of rounded surfaces one whose bracket holds an end of the range may be on either side of it.
-        for h in sorted(found[key], key=lambda h: (h["kind"] == 2, unlike(h))):
+        for h in sorted(found[key], key=lambda h: (is_open(h), unlike(h))):
+            if any(h is g for g in joined):
+                continue
             held = [pair for pair in left if inside(pair[0], h)]
-            if h["kind"] == 2:
-                report.clusters[scene.kind] += 1
+            if is_open(h):
+                report.clusters[scene.kind] += h["kind"] == 2
+                total = h["sign"]
+                if is_patch:
+                    # Open ones that overlap are one.
+                    mine = [h]
+                    for g in mine:
+                        mine += [other for other in found[key] if is_open(other) and overlap(other, g) and not any(other is r for r in mine)]
+                    joined += mine
+                    held = [pair for pair in left if any(inside(pair[0], g) for g in mine)]
+                    total = sum(g["sign"] for g in mine)
                 clear = False
                 # What is beyond an end of the range may have a bracket of its own, which is not told.
                 told = [e for e, _ in held if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
                 straddles = any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:])
                 sums = {sum(e.sign for e, _ in held)} | ({sum(e.sign for e in told)} if straddles else set())
+                for e, _ in held if is_patch else ():
+                    if e.optional or straddles:
+                        sums |= {s - e.sign + k for s in sums for k in (-1, 0, 1)}
                 # Those that are told next to it, from one to the next.
                 reach = [h]
                 for g in reach:
                     reach += [other for other in found[key] if overlap(other, g) and not any(other is r for r in reach)]
                 beside = [g for g in loose if any(g is r for r in reach)]
-                if h["sign"] + sum(g["sign"] for g in beside) not in sums and not (leaf and leaf.clip):
+                if total + sum(g["sign"] for g in beside) not in sums and not (leaf and leaf.clip):
                     wrong.append("cluster with another sign")
                 if certain:
                     wrong.append("cluster where exact arithmetic decides")
@@ -400,8 +420,9 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                     wrong.append("cluster away from tangents and edges")
                 left = [pair for pair in left if pair not in held]
                 continue
-            mine = [pair for pair in held if pair[0].sign == h["sign"]] or held
-            if certain or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
+            mine = [pair for pair in held if pair[0].sign == h["sign"] and not pair[0].any_sign]
+            mine = mine or sorted(held, key=lambda pair: bool(pair[0].normals) and not close_normal(*pair, h["normal"], ray, h["t_hi"] - h["t_lo"], ray[3:6]))
+            if exact_ends or not any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]):
                 mine = [pair for pair in mine if any(pair[0].t.cmp(e.t) == 0 for e, _ in expected.events[key])]
             if not mine:
                 # Into a corner and out of it again, or not at all, where the corner is only touched.
@@ -412,7 +433,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 if not (corner and twin):
                     wrong.append("extra crossing")
                 continue
-            if mine[0][0].sign != h["sign"] and (mine[0][0].optional or len(mine[0][0].normals) > 1):
+            if mine[0][0].sign != h["sign"] and not (mine[0][0].any_sign and h["sign"]) and (mine[0][0].optional or len(mine[0][0].normals) > 1):
                 # One of several at a corner.
                 clear = False
                 loose.append(h)
@@ -427,7 +448,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 left = [pair for pair in left if pair not in more]
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
-        beyond = lambda e: not certain and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
+        beyond = lambda e: not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
         if not all(e.optional or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left
@@ -533,6 +554,9 @@ def check_spans(report, scene, ray, expected, pairs, rows):
 def check_scene(report, durer, scene, rng, count, folder):
     file, rays_file, out = folder / "scene.pov", folder / "rays.npy", folder / "hits.npz"
     file.write_text(scene.words)
+    for leaves in scene.objects:
+        for name, data in (item for leaf in leaves for item in getattr(leaf, "files", {}).items()):
+            (folder / name).write_bytes(data)
     leaves = [leaf for object_ in scene.objects for leaf in object_]
     ranges = rng.random() < 0.6
     rays = [make_ray(rng, rng.choice(leaves), ranges) for _ in range(count)]
@@ -573,7 +597,7 @@ def check_scene(report, durer, scene, rng, count, folder):
             return
     check_queries_agree(report, scene, rays, found, at, closest, anyhit["hit"])
     lines, line_at = found, at
-    if ranges and not all(getattr(leaf, "certain", True) for leaf in leaves):
+    if ranges and not all(getattr(leaf, "certain", True) and getattr(leaf, "exact_ends", True) for leaf in leaves):
         array[:, 6:] = -INF, INF
         np.save(rays_file, array)
         lines = trace(durer, file, rays_file, "all", out)

@@ -8,7 +8,7 @@ counting the crossings of a line in the plane of the outlines, one that no verte
 from fractions import Fraction as F
 
 from exact import complement, sign
-from shapes import Answer, Event, Loops, cross, dot, text
+from shapes import Answer, Event, Loops, cross, dot, text, times
 from solids import Region, at, between, grouped, minus, multiply, places, plus, scaled, whole
 from zero_sets import Root, near, real_roots, trim
 
@@ -103,6 +103,46 @@ def prism(rng):
     ways = [(0, 1, 0), (1, 0, 0), (0, 0, 1), minus3(swept(loop[1], high), swept(loop[0], high)), minus3(swept(loop[0], high), swept(loop[0], low))]
     size = max(max(map(abs, c)) for face in faces for l in face for c in l)
     return StraightPrism(words, faces, points, [w for w in ways if any(w)], size, open_)
+
+
+def straight_sweep(rng):
+    """A profile along a straight path, with one size or two: the exact image of a prism, no ray exactly through an edge, where the rule of the prism's own frame holds."""
+    u = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
+    jitter = lambda: F(rng.randint(-(1 << 18), 1 << 18), 1 << 20)
+    loops = [[(a + jitter(), b + jitter()) for a, b in loop] for loop in rng.choice(OUTLINES)]
+    sizes = (F(1), rng.choice((F(1), F(2), F(1, 2), F(5, 4))))
+    way = rng.choice(((0, 0, 1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)))
+    # The smallest rotation of z onto the path.
+    turned = lambda e: minus3(e, times(F(dot(e, way), 1 + way[2]), plus3((0, 0, 1), way)))
+    x, y = turned((1, 0, 0)), turned((0, 1, 0))
+    start = rng.choice(((0, 0, 0), (1, -2, 3)))
+    path = [start, plus3(start, times(rng.choice((1, 4, 16)), way))]
+    place = lambda p, knot, k: times(u, plus3(knot, plus3(times(k * p[0], x), times(k * p[1], y))))
+    first, last = ([[place(p, knot, k) for p in loop] for loop in loops] for knot, k in zip(path, sizes))
+    faces = [[[a[k - 1], a[k], b[k], b[k - 1]]] for a, b in zip(first, last) for k in range(len(a))]
+    open_ = rng.random() < 0.15
+    if not open_:
+        faces += [first, last]
+    profile = ", ".join(f"linear_spline {len(loop)}, " + ", ".join(f"<{text(a * u)}, {text(b * u)}>" for a, b in loop) for loop in loops)
+    words = f"sweep {{ profile {profile} path linear_spline 2, " + ", ".join("<" + ", ".join(text(c * u) for c in p) + ">" for p in path)
+    words += f" size 2, {text(sizes[0])}, {text(sizes[1])}" * (sizes[0] != sizes[1]) + " open" * open_ + " }"
+
+    def points():
+        k = rng.randrange(len(loops))
+        j = rng.randrange(len(loops[k]))
+        a, b = first[k], last[k]
+        s, t = F(rng.random()), F(rng.random())
+        between_ = lambda p, q, f: plus3(p, times(f, minus3(q, p)))
+        yield near(between_(between_(a[j - 1], a[j], s), between_(b[j - 1], b[j], s), t))
+        yield near(between_(a[j], b[j], s))
+        yield near(between_(between_(a[0], a[1], s), b[2], t))
+
+    size = max(max(map(abs, c)) for face in faces for loop in face for c in loop)
+    return StraightPrism(words, faces, points, [], size, open_)
+
+
+def plus3(a, b):
+    return tuple(x + y for x, y in zip(a, b))
 
 
 def minus3(a, b):

@@ -7,9 +7,13 @@ from shapes import (
     Form, IDENTITY, Loops, Map, Sheet, Solid, TURNS, UNITS, add, cross, distance_form, dot, dyadic, frame, halfspace, on_circle,
     signed_permutation, small, sub, text, times, vec, wall_form,
 )
-from prisms import curved_prism, prism
+from fields import Copies, height_field, ifs, terrain_sheet
+from lathes import lathe
+from patches import bilinear, patch
+from prisms import curved_prism, prism, straight_sweep
 from rounded import blob, isosurface, julia, superellipsoid
 from solids import Region, lemon, ovus, sor
+from sphere_sweeps import sphere_sweep
 from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 
@@ -498,7 +502,9 @@ UNITED = [k for k in MAKERS if k != "plane"]
 # Put together from pieces, or rounded: slower to examine.
 MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
-    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface,
+    "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe, "sphere sweep": sphere_sweep,
+    "height field": height_field, "terrain": terrain_sheet, "ifs": ifs,
+    "bilinear": bilinear, "patch": patch, "sweep": straight_sweep,
 }
 
 
@@ -515,10 +521,10 @@ DECOYS = "camera { location <0, 0, -9> look_at 0 }\nlight_source { <9, 9, -9>, r
 def leaf_of(rng, kind, clips=True):
     leaf = MAKERS[kind](rng)
     # Where a clip's border is next to a rounded crossing is not decided; a tangled prism's caps have no side once they are clipped.
-    plain = getattr(leaf, "certain", True) and kind not in ("prism", "curved prism")
+    plain = getattr(leaf, "certain", True) and getattr(leaf, "exact_ends", True) and kind not in ("prism", "curved prism", "sweep")
     if clips and plain and rng.random() < 0.2:
         clip(rng, leaf)
-    elif isinstance(leaf, (Solid, ZeroSet, Region)) and rng.random() < 0.12:
+    elif isinstance(leaf, (Solid, ZeroSet, Region, Copies)) and rng.random() < 0.12:
         leaf.inverse = True
     leaf.map = placement(rng)
     return leaf

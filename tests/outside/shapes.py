@@ -110,7 +110,7 @@ class Map:
         # The inverse as whole numbers over one positive whole number.
         self.w = reduce(lcm, (x.denominator for r in inverse for x in r))
         self.n = tuple(tuple(int(x * self.w) for x in r) for r in inverse)
-        self.c_bits = max(x.denominator.bit_length() - 1 for x in self.c)
+        self.c_part = reduce(lcm, (x.denominator for x in self.c))
 
     def point(self, p):
         return add(self.vector(p), self.c)
@@ -126,11 +126,11 @@ class Map:
 
     def ray(self, o, d):
         """The ray of floats o, d in the frame before the map: whole numbers (x, d, w)."""
-        bits = max([self.c_bits] + [f.as_integer_ratio()[1].bit_length() - 1 for f in (*o, *d)])
-        whole = lambda x: int(F(x) * (1 << bits))
+        part = reduce(lcm, (f.as_integer_ratio()[1] for f in (*o, *d)), self.c_part)
+        whole = lambda x: int(F(x) * part)
         x = sub(tuple(map(whole, o)), tuple(map(whole, self.c)))
         v = tuple(map(whole, d))
-        return tuple(dot(r, x) for r in self.n), tuple(dot(r, v) for r in self.n), self.w << bits
+        return tuple(dot(r, x) for r in self.n), tuple(dot(r, v) for r in self.n), self.w * part
 
     def normal(self, n):
         """A covector (the gradient of a function) after the map, up to a positive factor."""

@@ -69,6 +69,8 @@ class Region(Leaf):
     """A solid; `certain` if every decision about it can be exact, else tangents may be told as clusters."""
 
     certain = True
+    # Whether it is decided exactly on which side of a range's end, or of a clip's border, a crossing is.
+    exact_ends = True
     # Where the last line may meet the boundary, and what has its normal there.
     met = ()
 

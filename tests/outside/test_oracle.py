@@ -4,17 +4,21 @@
     python3 test_oracle.py
 """
 
+import itertools
 import math
 import random
 import re
 import unittest
 from fractions import Fraction as F
 
+import numpy as np
+
 import scenes
 from check_trace import Expected, in_world, make_ray
 from exact import Number, holds, sign
 from shapes import Loops, Sheet, Solid, dot, sub
 from solids import places
+from sphere_sweeps import discriminant, resultant
 from zero_sets import ZeroSet, multiply, real_roots
 
 TINY = F(1, 1 << 4000)  # below all products of subnormal numbers
@@ -86,6 +90,35 @@ def between(a, b):
         bits *= 2
 
 
+def profile_of(body):
+    """The pieces of a lathe's profile, each two polynomials in numpy's manner: through four places that its definition names."""
+    word = next((w for w in ("quadratic_spline", "cubic_spline", "bezier_spline") if w in body), "linear_spline")
+    x = [float(n) for n in numbers(body)][1:]
+    line = list(zip(x[::2], x[1::2]))
+    ws, pieces = np.array([0, 1 / 3, 2 / 3, 1]), []
+
+    def hermite(a, b, m, n):
+        return lambda w: (1 + 2 * w) * (1 - w) ** 2 * a + w * (1 - w) ** 2 * m + w * w * (3 - 2 * w) * b - w * w * (1 - w) * n
+
+    for i in range(0, len(line), 4) if word == "bezier_spline" else range(len(line) - {"l": 1, "q": 2, "c": 3}[word[0]]):
+        piece = []
+        for axis in (0, 1):
+            a, b, c, d = ([p[axis] for p in line[i : i + 4]] + [0, 0])[:4]
+            if word == "bezier_spline":
+                at_ = hermite(a, d, 3 * (b - a), 3 * (d - c))
+            elif word == "cubic_spline":
+                at_ = hermite(b, c, (c - a) / 2, (d - b) / 2)
+            elif word == "quadratic_spline":
+                # The parabola that has the first point at -1, the second at 0 and the third at 1.
+                at_ = lambda w: a * w * (w - 1) / 2 - b * (w - 1) * (w + 1) + c * w * (w + 1) / 2
+            else:
+                at_ = lambda w: a + (b - a) * w
+            degree = {"l": 1, "q": 2}.get(word[0], 3)
+            piece.append(np.poly1d(np.polyfit(ws, [at_(w) for w in ws], degree)))
+        pieces.append(piece)
+    return pieces
+
+
 def value_of(body, p):
     """Negative inside a solid that is put together, read from its text, in floats: another make again."""
     word = body.split()[0]
@@ -116,6 +149,16 @@ def value_of(body, p):
         radius, h, inner = x[3], x[5], x[8]
         major = math.sqrt(inner**2 - (h / 2) ** 2) - radius
         return max(-p[1], p[1] - h, math.hypot(rho + major, p[1] - h / 2) - inner)
+    if word == "lathe":
+        # The walls beyond the point, by the roots that numpy finds; of a point next to one nothing is told.
+        near, odd = math.inf, False
+        for r, y in profile_of(body):
+            for w in np.roots((y - p[1]).coeffs):
+                if abs(w.imag) < 1e-9 and -1e-9 < w.real < 1 + 1e-9:
+                    near = 0.0 if w.imag else near
+                    near = min(near, abs(w.real), abs(1 - w.real), abs(abs(r(w.real)) - rho))
+                    odd ^= abs(r(w.real)) > rho
+        return -near if odd else near
     if word == "superellipsoid":
         e, n = x
         return (abs(p[0]) ** (2 / e) + abs(p[1]) ** (2 / e)) ** (e / n) + abs(p[2]) ** (2 / n) - 1
@@ -142,6 +185,200 @@ def value_of(body, p):
             z = tuple(a + b for a, b in zip(z, c))
         return worst
     raise AssertionError(word)
+
+
+def balls_of(body):
+    """400 balls of each piece of a sphere sweep: by de Boor's means, Hermite's basis or straight."""
+    x = [float(n) for n in numbers(body.split(" tolerance")[0].replace("b_spline", ""))][1:]
+    spheres = [x[i : i + 4] for i in range(0, len(x), 4)]
+    mix = lambda f, p, q: [a + f * (b - a) for a, b in zip(p, q)]
+    if "linear_spline" in body:
+        return [[mix(k / 400, p, q) for k in range(401)] for p, q in zip(spheres, spheres[1:])]
+    pieces = []
+    for a, b, c, d in zip(spheres, spheres[1:], spheres[2:], spheres[3:]):
+        piece = []
+        for k in range(401):
+            u = k / 400
+            if "b_spline" in body:
+                one, two, three = mix((u + 2) / 3, a, b), mix((u + 1) / 3, b, c), mix(u / 3, c, d)
+                piece.append(mix(u, mix((u + 1) / 2, one, two), mix(u / 2, two, three)))
+            else:
+                h = ((1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2, u * u * (3 - 2 * u), -u * u * (1 - u))
+                piece.append([h[0] * q + h[1] * (r - p) / 2 + h[2] * r + h[3] * (s - q) / 2 for p, q, r, s in zip(a, b, c, d)])
+        pieces.append(piece)
+    return pieces
+
+
+def sylvester(p):
+    """The resultant of a polynomial and its derivative, in floats."""
+    q = [i * a for i, a in enumerate(p)][1:]
+    m, n = len(p) - 1, len(q) - 1
+    rows = [[0.0] * i + [float(a) for a in reversed(p)] + [0.0] * (n - 1 - i) for i in range(n)]
+    rows += [[0.0] * i + [float(a) for a in reversed(q)] + [0.0] * (m - 1 - i) for i in range(m)]
+    return float(np.linalg.det(np.array(rows)))
+
+
+def holds_copies(body, p):
+    """Whether an iterated function system, read from its text, holds a point."""
+    if "menger" in body:
+        (levels,) = map(int, numbers(body))
+
+        def in_sponge(p, n):
+            if any(abs(c) > 1 for c in p):
+                return False
+            # Of all thirds that hold the point, borders included, in each direction.
+            thirds = [[k for k in (-1, 0, 1) if abs(3 * c - 2 * k) <= 1] for c in p]
+            return n == 0 or any(sum(k == 0 for k in ks) < 2 and in_sponge([3 * c - 2 * k for c, k in zip(p, ks)], n - 1) for ks in itertools.product(*thirds))
+
+        return in_sponge(p, levels)
+    if "sierpinski" in body:
+        (levels,) = map(int, numbers(body))
+        corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
+        inner = lambda p: all(dot(p, c) >= -1 for c in corners)
+        system = lambda p, n: inner(p) if n == 0 else any(system([2 * a - b for a, b in zip(p, c)], n - 1) for c in corners)
+        return system(p, levels)
+    head, *maps = body.split("map {")
+    leaf, x = head.split()[2], numbers(head)
+    maps = [m.split("}")[0] for m in maps]
+    depth = int(numbers(body.split("depth")[1])[0])
+    matrices = []
+    for words in maps:
+        n = numbers(words)
+        matrices.append(([[n[3 * j + i] for j in range(3)] for i in range(3)], n[9:12]))
+
+    def held(p, n):
+        if n:
+            return any(held(solve(rows, sub(p, c)), n - 1) for rows, c in matrices)
+        if leaf == "sphere":
+            return sum((a - b) ** 2 for a, b in zip(p, x[:3])) <= x[3] ** 2
+        if leaf == "box":
+            return all(min(a, b) <= c <= max(a, b) for a, b, c in zip(x[:3], x[3:6], p))
+        a, b, c, d = (x[i : i + 3] for i in range(0, 12, 3))
+        columns = [sub(b, a), sub(c, a), sub(d, a)]
+        weights = solve([[column[i] for column in columns] for i in range(3)], sub(p, a))
+        return all(w >= 0 for w in weights) and sum(weights) <= 1
+
+    return held(p, depth)
+
+
+def height_of(leaf, x, z):
+    """The height of a sheet at a place, from its text and pictures."""
+    body = leaf.body
+    if body.startswith("terrain"):
+        words = body.replace("<", " ").replace(">", " ").replace(",", " ").split()
+        value = lambda name: float(words[words.index(name) + 1])
+        levels, corners = int(value("levels")), [float(words[words.index("corners") + k]) for k in (1, 2, 3, 4)]
+        rows = displaced(levels, value("roughness"), value("amplitude"), int(words[words.index("seed") + 1]), corners)
+    elif "function" in body:
+        columns, count, a, b, c = map(float, numbers(body)[:5])
+        rows = [[a + b * i / (columns - 1) + c * (1 - j / (count - 1)) ** 2 for i in range(int(columns))] for j in range(int(count))]
+    else:
+        magic, size, most, data = leaf.files["heights.pgm"].split(b"\n", 3)
+        columns, count = map(int, size.split())
+        deep = int(most) > 255
+        values = [int.from_bytes(data[2 * i : 2 * i + 2], "big") if deep else data[i] * 257 for i in range(columns * count)]
+        rows = [[v / 65536 for v in values[r * columns : (r + 1) * columns]] for r in range(count)][::-1]
+    m, n = len(rows[0]) - 1, len(rows) - 1
+    i, j = int(x * m), int(z * n)
+    u, v = x * m - i, z * n - j
+    a, b, c, d = rows[j][i], rows[j][i + 1], rows[j + 1][i], rows[j + 1][i + 1]
+    return a + u * (b - a) + v * (c - a) if u + v <= 1 else d + (1 - u) * (c - d) + (1 - v) * (b - d)
+
+
+def displaced(levels, roughness, amplitude, seed, corners):
+    """A terrain's heights, square by square from the whole one down."""
+    n = 2**levels
+    h = np.full((n + 1, n + 1), np.nan)
+    h[0, 0], h[0, n], h[n, 0], h[n, n] = corners
+
+    def push(i, j, level):
+        z = (seed * 0x9E3779B97F4A7C15 + i * 0xBF58476D1CE4E5B9 + j * 0x94D049BB133111EB) % 2**64
+        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+        z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
+        z = (z ^ z >> 31) >> 11
+        return amplitude * 2.0 ** (-roughness * level) * (2 * z / 2**53 - 1)
+
+    def split(i, j, s, level):
+        if s == 1:
+            return
+        k = s // 2
+        for (pi, pj), (qi, qj) in (((i, j), (i + s, j)), ((i, j), (i, j + s)), ((i + s, j), (i + s, j + s)), ((i, j + s), (i + s, j + s)), ((i + s, j), (i, j + s))):
+            x, y = (pi + qi) // 2, (pj + qj) // 2
+            h[y, x] = (h[pj, pi] + h[qj, qi]) / 2 + push(x, y, level)
+        for di in (0, k):
+            for dj in (0, k):
+                split(i + di, j + dj, k, level + 1)
+
+    split(0, 0, n, 0)
+    return h.tolist()
+
+
+def casteljau(body, u, v):
+    """A point of a patch by means of means; none of a place that a triangle lacks."""
+    word, x = body.split()[0], numbers(body.replace("b_spline", "spline"))
+    mean = lambda s, p, q: tuple(a + s * (b - a) for a, b in zip(p, q))
+
+    def along(points, s):
+        while len(points) > 1:
+            points = [mean(s, p, q) for p, q in zip(points, points[1:])]
+        return points[0]
+
+    threes = lambda x: [tuple(x[i : i + 3]) for i in range(0, len(x), 3)]
+    if word == "bilinear":
+        a, b, c, d = threes(x)
+        return mean(v, mean(u, a, b), mean(u, d, c))
+    if "triangular" in body:
+        n, points = int(x[0]), threes(x[1:])
+        net = {}
+        for j in range(n):
+            for i in range(n - j):
+                net[i, j] = points.pop(0)
+        if u + v > 1:
+            return None
+        while len(net) > 1:
+            top = max(i for i, _ in net)
+            net = {(i, j): tuple((1 - u - v) * a + u * b + v * c for a, b, c in zip(net[i, j], net[i + 1, j], net[i, j + 1])) for i, j in net if i + j < top}
+        return net[0, 0]
+    if word == "bicubic_patch":
+        columns, x = 4, x[3:]
+    else:
+        columns, x = int(x[0]), x[2:]
+    points = threes(x)
+    rows = [points[i : i + columns] for i in range(0, len(points), columns)]
+    if "b_spline" in body:
+        def boor(p, s):
+            one, two, three = mean((s + 2) / 3, p[0], p[1]), mean((s + 1) / 3, p[1], p[2]), mean(s / 3, p[2], p[3])
+            return mean(s, mean((s + 1) / 2, one, two), mean(s / 2, two, three))
+
+        return boor([boor(row, u) for row in rows], v)
+    return along([along(row, u) for row in rows], v)
+
+
+def holds_sweep(body, p):
+    """Whether a straight sweep holds a point: its profile, turned from z onto the path by one rotation, holds the point's place."""
+    profile, path = body.split("path")
+    loops = [numbers(part)[1:] for part in profile.split("linear_spline")[1:]]
+    x = numbers(path)[1:]
+    start, end = x[:3], x[3:6]
+    sizes = x[7:9] if "size" in path else [1, 1]
+    way = sub(end, start)
+    h = dot(sub(p, start), way) / dot(way, way)
+    if not 0 <= h <= 1:
+        return False
+    k = sizes[0] + h * (sizes[1] - sizes[0])
+    foot = sub(p, tuple(a + h * b for a, b in zip(start, way)))
+    # The axes of the profile: x and y unless the path goes along one of them; then z, which has become the path, is exchanged with it.
+    axis = max(range(3), key=lambda i: abs(way[i]))
+    s = sign(way[axis])
+    a, b = {2: (foot[0], foot[1]), 0: (-s * foot[2], foot[1]), 1: (foot[0], -s * foot[2])}[axis]
+    a, b = a / k, b / k
+    odd = False
+    for loop in loops:
+        corners = list(zip(loop[::2], loop[1::2]))
+        for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1]):
+            if (y0 > b) != (y1 > b):
+                odd ^= x0 + (b - y0) * (x1 - x0) / (y1 - y0) > a
+    return odd
 
 
 def faces_met(body, ray, du, dv):
@@ -213,27 +450,27 @@ class Oracle(unittest.TestCase):
                     self.assertTrue((before, after) == wanted if wanted else before == after, (leaf.sdl(), ray, e))
 
     def test_solids_that_are_put_together_are_those_of_their_text(self):
-        for kind in ("sor", "ovus", "lemon", "superellipsoid", "julia"):
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "julia", "lathe"):
             told = 0
             with self.subTest(kind):
                 for rng, _, leaf, ray in self.cases(kind, 12):
                     body = scenes.times(leaf.size, tuple(F(rng.uniform(-1.2, 1.2)) for _ in range(3)))
-                    middle = sum(leaf.heights[:: len(leaf.heights) - 1]) / 2 if kind in ("sor", "ovus", "lemon") else 0
+                    middle = sum(leaf.heights[:: len(leaf.heights) - 1]) / 2 if kind in ("sor", "ovus", "lemon") else rng.choice(leaf.ends) if kind == "lathe" else 0
                     p = (body[0], body[1] + middle, body[2])
                     theirs, ours = value_of(leaf.body, p), leaf.value(p)
-                    if abs(theirs) > 1e-9 * float(leaf.size) ** 2:
+                    if abs(theirs) > (1e-9 * float(leaf.size) ** 2 if kind != "lathe" else 1e-6 * max(1, float(leaf.size))):
                         told += 1
                         self.assertEqual(theirs < 0, ours < 0, (leaf.body, p))
             self.assertGreater(told, 100)
 
     def test_the_polynomials_of_a_solid_vanish_where_its_value_does(self):
         """The roots of the polynomials along a ray against signs of the value, which knows none of them."""
-        for kind in ("sor", "ovus", "lemon", "superellipsoid", "blob", "julia", "isosurface"):
+        for kind in ("sor", "ovus", "lemon", "superellipsoid", "blob", "julia", "isosurface", "lathe"):
             found = 0
             for rng, _, leaf, ray in self.cases(kind, 8):
                 leaf.clip, leaf.inverse = [], False
                 answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
-                if answer.within:
+                if answer.within or not leaf.solid():
                     continue
                 found += len(answer.events)
                 along = places(leaf.whole.ray(ray[:3], ray[3:6]))
@@ -242,6 +479,143 @@ class Oracle(unittest.TestCase):
                     value = leaf.value(tuple(c[0] + t * c[1] for c in along))
                     self.assertEqual(value < 0, any(holds(a, b, Number.of(t)) for a, b in answer.inside), (leaf.sdl(), ray, t))
             self.assertGreater(found, 20, kind)
+
+    def test_lathes_are_met_where_the_points_of_their_profiles_are(self):
+        """Every crossing is at the distance from the axis that the profile has at its height; and so often as the distance less the profile's changes its sign along the profile."""
+        found = 0
+        for rng, _, leaf, ray in self.cases("lathe", 20):
+            leaf.clip, leaf.inverse = [], False
+            answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+            if answer.within:
+                continue
+            (x, dx), (y, dy), (z, dz) = places(leaf.whole.ray(ray[:3], ray[3:6]))
+            pieces = profile_of(leaf.body)
+            size = float(leaf.size)
+            for e in answer.events:
+                t = e.t.rational(200)
+                rho, height = math.hypot(x + t * dx, z + t * dz), float(y + t * dy)
+                near = [abs(abs(r(w.real)) - rho) + abs(h(w.real) - height) for r, h in pieces for w in [*np.roots((h - height).coeffs), *np.roots((r - rho).coeffs), *np.roots((r + rho).coeffs)] if -1e-4 < w.real < 1.0001]
+                self.assertLess(min(near), 1e-5 * max(size, abs(height)), (leaf.sdl(), ray, e))
+                found += 1
+            if dy and leaf.closed is False:
+                changes = 0
+                for r, h in leaf.pieces:
+                    values = []
+                    for k in range(1, 40):
+                        w = F(k, 40)
+                        t = (sum(c * w**i for i, c in enumerate(h)) - y) / dy
+                        values.append((x + t * dx) ** 2 + (z + t * dz) ** 2 > sum(c * w**i for i, c in enumerate(r)) ** 2)
+                    changes += sum(a != b for a, b in zip(values, values[1:]))
+                self.assertLessEqual(changes, len(answer.events), (leaf.sdl(), ray))
+        self.assertGreater(found, 100)
+
+    def test_sphere_sweeps_are_the_unions_of_their_balls(self):
+        """Points against many of the balls, by splines of another make, in floats."""
+        told = {True: 0, False: 0}
+        for rng, _, leaf, _ in self.cases("sphere sweep", 15):
+            balls = [ball for piece in balls_of(leaf.body) for ball in piece]
+            c = [sum(b[i] for b in balls) / len(balls) for i in range(3)]
+            p = [F(a + float(leaf.size) * rng.uniform(-1.5, 1.5)) for a in c]
+            depth = min(math.dist(tuple(map(float, p)), b[:3]) - abs(b[3]) for b in balls)
+            # Between two of 400 balls there may be a little more.
+            if abs(depth) > 0.02 * float(leaf.size):
+                told[depth < 0] += 1
+                self.assertEqual(depth < 0, leaf.value(tuple(p)) < 0, (leaf.body, p))
+        self.assertGreater(min(told.values()), 8, told)
+
+    def test_discriminants_vanish_at_double_roots(self):
+        rng = random.Random(4)
+        for _ in range(60):
+            # |o + t d - c(u)|^2 - r^2 in the plane: at t = 0 with a double root u = 1/2, elsewhere without.
+            f = multiply([F(1), F(-4), F(4)], [F(rng.randint(1, 5)), F(rng.randint(-3, 3)), F(rng.randint(1, 4))])
+            tilt, square = [F(rng.randint(-5, 5)) for _ in range(4)], F(rng.randint(1, 9))
+            found = discriminant([f, tilt, [square]])
+            self.assertEqual(found[0], 0)
+            for t in (F(1, 3), F(-5, 2)):
+                at_t = [a + t * b + t * t * c for a, b, c in zip(f, [*tilt, 0], [square, 0, 0, 0, 0])]
+                said = sum(a * t**i for i, a in enumerate(found))
+                self.assertAlmostEqual(float(said / resultant(at_t, [i * a for i, a in enumerate(at_t)][1:])), 1.0)
+                # By Sylvester's determinant, too.
+                self.assertLess(abs(float(said) / sylvester(at_t) - 1), 1e-6)
+
+    def test_sphere_sweeps_are_left_where_their_value_changes(self):
+        found = 0
+        for rng, _, leaf, ray in self.cases("sphere sweep", 6):
+            leaf.clip, leaf.inverse = [], False
+            answer = leaf.answer(ray[:3], ray[3:6], leaf.whole)
+            if answer.within:
+                continue
+            found += len(answer.events)
+            along = places(leaf.whole.ray(ray[:3], ray[3:6]))
+            reach = max(abs(c[1]) for c in along)
+            for t in [F(rng.uniform(-1, 1)) * leaf.size / reach + (e.t.rational() if e else 0) for e in (*answer.events, None)]:
+                value = leaf.value(tuple(c[0] + t * c[1] for c in along))
+                self.assertEqual(value < 0, any(holds(a, b, Number.of(t)) for a, b in answer.inside), (leaf.sdl(), ray, t))
+        self.assertGreater(found, 20)
+
+    def test_iterated_systems_are_the_unions_of_their_copies(self):
+        """Points of a ray against maps that are read from the text and undone one after another."""
+        told = {True: 0, False: 0}
+        for rng, _, leaf, ray in self.cases("ifs", 20):
+            leaf.inverse = False
+            inside = leaf.answer(ray[:3], ray[3:6], leaf.whole).inside
+            for t in [F(rng.gauss(0, 3)), *((e.rational(200) + F(k, 1 << 30) for pair in inside[:3] for e in pair if e is not None for k in (-1, 1)))]:
+                said = any(holds(a, b, Number.of(t)) for a, b in inside)
+                told[said] += 1
+                self.assertEqual(said, holds_copies(leaf.body, local(leaf, at(ray, t))), (leaf.sdl(), ray, t))
+        self.assertGreater(min(told.values()), 20, told)
+
+    def test_sheets_have_the_heights_of_their_text(self):
+        """Upright rays meet a sheet once, at the height that its three nearest vertices have."""
+        for kind in ("height field", "terrain"):
+            for i in range(25):
+                rng = random.Random(f"sheet/{kind}/{i}")
+                leaf = scenes.MAKERS[kind](rng)
+                leaf.whole = leaf.map
+                for _ in range(6):
+                    x, z = rng.random(), rng.random()
+                    events = leaf.answer((x, 0.0, z), (0.0, 1.0, 0.0), leaf.whole).events
+                    height = height_of(leaf, x, z)
+                    if leaf.water is not None and abs(height - leaf.water) < 1e-9:
+                        continue
+                    self.assertEqual(len(events), int(leaf.water is None or height > leaf.water), (leaf.body, x, z))
+                    if events:
+                        self.assertLess(abs(float(events[0].t) - height), 1e-9, (leaf.body, x, z))
+
+    def test_patches_are_met_where_their_points_are(self):
+        """Rays through points of the control net's own evaluation, by Casteljau's means of means, meet the patch there; and the events are on it."""
+        for kind in ("bilinear", "patch"):
+            found = 0
+            for i in range(30):
+                rng = random.Random(f"patch/{kind}/{i}")
+                leaf = scenes.MAKERS[kind](rng)
+                leaf.whole = leaf.map
+                for _ in range(4):
+                    u, v = F(rng.randint(1, 15), 16), F(rng.randint(1, 15), 16)
+                    p = casteljau(leaf.body, u, v)
+                    if p is None:
+                        continue
+                    d = tuple(F(rng.randint(-9, 9)) for _ in range(3))
+                    o = tuple(a - b for a, b in zip(p, d))
+                    if any(F(float(c)) != c for c in o) or not any(d):
+                        continue
+                    answer = leaf.answer(tuple(map(float, o)), tuple(map(float, d)), leaf.whole)
+                    if not answer.within:
+                        found += 1
+                        self.assertTrue(any(e.t.cmp(1.0) == 0 for e in answer.events), (leaf.body, u, v))
+            self.assertGreater(found, 20, kind)
+
+    def test_straight_sweeps_hold_what_their_profiles_hold(self):
+        told = {True: 0, False: 0}
+        for rng, _, leaf, ray in self.cases("sweep", 15):
+            if leaf.open:
+                continue
+            inside = leaf.answer(ray[:3], ray[3:6], leaf.whole).inside
+            for t in [F(rng.uniform(-2, 2)) * leaf.size] + [(a.rational() + b.rational()) / 2 for a, b in inside]:
+                said = any(holds(a, b, Number.of(t)) for a, b in inside)
+                told[said] += 1
+                self.assertEqual(said, holds_sweep(leaf.body, local(leaf, at(ray, t))), (leaf.sdl(), ray, t))
+        self.assertGreater(min(told.values()), 15, told)
 
     def test_a_sheet_is_crossed_where_its_equation_changes_sign(self):
         for kind in ("disc", "cylinder", "cone"):

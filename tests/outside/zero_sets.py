@@ -164,6 +164,8 @@ class Root:
             return self.against(F(other))
         if isinstance(other, Number) and other.q == 0:
             return self.against(F(other.p, other.a))
+        if not isinstance(other, (Root, Number)):
+            return -other.cmp(self)
         for bits in (60, 400, 1600, 6400):
             a, b = self.rational(bits), other.rational(bits)
             if isinstance(other, Root):

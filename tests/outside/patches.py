@@ -1,0 +1,359 @@
+"""Patches: ruled ones of any degree along one parameter (bilinear ones among them), and graphs of polynomials of both parameters.
+
+A ray is where two planes meet. On a ruled patch `A(u) + v (B(u) - A(u))` each plane gives an equation that is linear in `v`; what is left when `v` is eliminated is one polynomial in `u`, and `v` and the
+ray's `t` are quotients of polynomials in `u`. On a graph `(k u, f(u, v), l v)` the two parameters are linear in `t`, so that one polynomial in `t` is left. Every patch is taken through affine maps, so
+the patch has no place of its own that these two kinds would favour.
+"""
+
+from fractions import Fraction as F
+from math import comb
+
+from lathes import Image, slope
+from exact import Number, sign
+from shapes import Answer, Event, cross, dot, sub, text, vec
+from solids import Region, at, grouped, minus, places, plus, scaled, whole
+from zero_sets import multiply, near, real_roots
+
+
+class Quotient(Image):
+    """The number p(u) / q(u) of an algebraic number u, where q(u) is not zero."""
+
+    def __init__(self, root, p, q):
+        super().__init__(root, p)
+        self.q = [F(a) for a in q]
+        self.side = root.sign_of(whole(self.q))
+
+    def bound(self):
+        def enclosed(p):
+            u, v = self.root.l, self.root.r
+            far = max(abs(u), abs(v))
+            spread = sum(k * abs(a) * far ** (k - 1) for k, a in enumerate(p) if k) * (v - u) / 2
+            value = at(p, (u + v) / 2)
+            return value - spread, value + spread
+
+        (a, b), (c, d) = enclosed(self.p), enclosed(self.q)
+        if c <= 0 <= d:
+            # Not narrow enough yet.
+            self.l, self.r = F(-1), F(1)
+            return
+        ends = [x / y for x in (a, b) for y in (c, d)]
+        self.l, self.r = min(ends), max(ends)
+
+    def against(self, x):
+        return self.root.sign_of(whole(minus(self.p, scaled(F(x), self.q)))) * self.side
+
+    def sign_of(self, poly):
+        """The sign of a polynomial there: with as many factors q as it has degrees."""
+        out, power = [F(0)], [F(1)]
+        for a in reversed([F(a) for a in poly]):
+            out = plus(multiply(out, self.p), scaled(a, power))
+            power = multiply(power, self.q)
+        return self.root.sign_of(whole(out)) * self.side ** (len(poly) - 1)
+
+
+class Tangents:
+    """The normal at a place of a patch, and how it changes with the point."""
+
+    def __init__(self, normal, bend):
+        self.normal, self.bent = normal, bend
+
+    def gradient(self, _):
+        return self.normal
+
+    def bend(self, _):
+        return self.bent
+
+
+def is_flat(tangents, d, bits):
+    """Whether a direction is in the patch's plane, but for an angle of about 2^-bits."""
+    top = lambda v: max(map(abs, v))
+    return abs(dot(tangents.normal, d)) * (1 << bits) <= top(tangents.normal) * top(d)
+
+
+class Patch(Region):
+    certain = exact_ends = False
+
+    def __init__(self, body, points, directions, size):
+        super().__init__(body, points, directions, size)
+        self.known, self.forms = {}, [self]
+
+    def solid(self):
+        return False
+
+    def gradient(self, p):
+        """Only of the points that rays are aimed at."""
+        return self.known.get(p, (F(0), F(0), F(0)))
+
+    def answer(self, o, d, m):
+        ray = m.ray(o, d)
+        self.within = False
+        groups = grouped(self.meetings(ray))
+        flip = -1 if self.inverse else 1
+        events = []
+        self.met = [(t, n) for group in groups for t, n, _, _ in group]
+        d = tuple(F(x, ray[2]) for x in ray[1])
+        for group in groups:
+            for t, normal, on_border, turn in group:
+                # Within the patch's own plane but for some rounding errors.
+                on_border |= normal is not None and is_flat(normal, d, 44)
+                event = Event(t, flip * turn, [(normal, flip)] if normal else [], self)
+                event.optional = on_border
+                events.append(event)
+        return Answer(self.clipped(events, ray), [], self.within)
+
+    def passes_an_edge(self, ray, lo, hi):
+        return False
+
+    def is_tangent(self, ray, lo, hi):
+        """Whether a ray is in the patch's plane next to a cluster but for an angle of 2^-18, or comes and goes as near as the cluster is wide."""
+        lo, hi = F(lo), F(hi)
+        wide = hi - lo + self.size / max(abs(F(x, ray[2])) for x in ray[1]) / (1 << 30)
+        near_ = lambda t: lo - 2 * wide <= t <= hi + 2 * wide
+        d = tuple(F(x, ray[2]) for x in ray[1])
+        return any(near_(t) for t in self.low_places(ray)) or any(near_(t.rational(100)) and (n is None or is_flat(n, d, 18)) for t, n, _, _ in self.meetings(ray))
+
+    def slack(self, ray):
+        """How far beyond its border, in its parameters, a patch may be met: some rounding errors of the numbers on the way there and back."""
+        stretch = max(abs(x) for row in self.whole.rows for x in row) * max(abs(F(x, self.whole.w)) for row in self.whole.n for x in row)
+        moved = max(abs(F(dot(row, self.whole.c))) / self.whole.w for row in self.whole.n)
+        return F(1, 1 << 44) * stretch * (1 + (moved + max(abs(F(x, ray[2])) for x in ray[0])) / self.size)
+
+
+def bernstein(rows):
+    """The powers of a Bezier curve with these numbers as its control points."""
+    n = len(rows) - 1
+    return [comb(n, k) * sum((-1) ** (k - i) * comb(k, i) * rows[i] for i in range(k + 1)) for k in range(n + 1)]
+
+
+class Ruled(Patch):
+    """Between two Bezier curves of the same degree."""
+
+    def __init__(self, body, first, last, points, directions, size):
+        super().__init__(body, points, directions, size)
+        self.last = last
+        self.a = [bernstein([F(p[i]) for p in first]) for i in range(3)]
+        self.b = [minus(bernstein([F(p[i]) for p in last]), c) for i, c in enumerate(self.a)]
+
+    def equations(self, ray):
+        x, d, w = ray
+        k = max(range(3), key=lambda i: abs(d[i]))
+        o, d = tuple(F(a, w) for a in x), tuple(F(a, w) for a in d)
+        pairs = []
+        for i in range(3):
+            if i != k:
+                a = minus(scaled(d[k], minus(self.a[i], [o[i]])), scaled(d[i], minus(self.a[k], [o[k]])))
+                pairs.append((a, minus(scaled(d[k], self.b[i]), scaled(d[i], self.b[k]))))
+        (a1, b1), (a2, b2) = pairs
+        return o, d, k, pairs, minus(multiply(a1, b2), multiply(a2, b1))
+
+    def place(self, o, d, k, pairs, u):
+        """v as a quotient, and t: (numerator, denominator)."""
+        for a, b in pairs:
+            if u.sign_of(whole(b)):
+                v = (scaled(-1, a), b)
+                return v, (plus(multiply(minus(self.a[k], [o[k]]), b), multiply(self.b[k], v[0])), scaled(d[k], b))
+        return None
+
+    def meetings(self, ray):
+        o, d, k, pairs, poly = self.equations(ray)
+        found = real_roots(whole(poly))
+        if found is None:
+            self.within = True
+            return []
+        out = []
+        slack = self.slack(ray)
+        border_of = lambda u: u.against(slack) <= 0 or u.against(1 - slack) >= 0
+        for u in found:
+            if not u.against(-slack) >= 0 >= u.against(1 + slack):
+                continue
+            place = self.place(o, d, k, pairs, u)
+            if place is None:
+                # Along a line of the patch, if it is met at all.
+                self.within |= all(u.sign_of(whole(a)) == 0 for a, _ in pairs)
+                continue
+            v, t = Quotient(u, *place[0]), Quotient(u, *place[1])
+            if v.against(-slack) >= 0 >= v.against(1 + slack):
+                # An edge that is one point is a border all around it.
+                tip = len(set(self.last)) == 1 and v.against(1 - F(1, 1 << 20)) >= 0
+                border = border_of(u) or border_of(v) or tip
+                normal, bend = self.normal(u.rational(200), v.rational(200))
+                turn = 0 if u.before == u.after else sign(dot(normal, d))
+                # An edge that is one point has no normal.
+                out.append((t, Tangents(normal, bend) if any(normal) and not tip else None, border or not any(normal), turn))
+        return out
+
+    def low_places(self, ray):
+        o, d, k, pairs, poly = self.equations(ray)
+        for u in real_roots(whole(slope(poly))) or []:
+            place = self.place(o, d, k, pairs, u)
+            if place:
+                yield Quotient(u, *place[1]).rational(100)
+
+    def normal(self, u, v):
+        su = [at(slope(a), u) + v * at(slope(b), u) for a, b in zip(self.a, self.b)]
+        sv = [at(b, u) for b in self.b]
+        suu = [at(slope(slope(a)), u) + v * at(slope(slope(b)), u) for a, b in zip(self.a, self.b)]
+        suv = [at(slope(b), u) for b in self.b]
+        n = cross(su, sv)
+        top = lambda w: max(map(abs, w))
+        # The parameters change by less than the point over the height of the parallelogram of both slopes.
+        rate = 2 * max(top(su), top(sv)) / top(n) if any(n) else F(0)
+        return n, 2 * rate * (top(suu) * top(sv) + 2 * top(suv) * top(su) + top(suv) * top(sv))
+
+
+class Graph(Patch):
+    """y = f(x / k, z / l); the factor of u^i v^j is terms[i][j]."""
+
+    def __init__(self, body, terms, spans, inside, points, directions, size):
+        super().__init__(body, points, directions, size)
+        self.terms, self.spans, self.inside = terms, spans, inside
+
+    def along(self, ray):
+        x, y, z = places(ray)
+        (x0, k), (z0, l) = self.spans
+        u, v = scaled(F(1, k), minus(x, [x0])), scaled(F(1, l), minus(z, [z0]))
+        out, power = [F(0)], [F(1)]
+        for row in self.terms:
+            inner = [F(0)]
+            for a in reversed(row):
+                inner = plus(multiply(inner, v), [a])
+            out = plus(out, multiply(power, inner))
+            power = multiply(power, u)
+        return u, v, minus(out, y)
+
+    def meetings(self, ray):
+        u, v, poly = self.along(ray)
+        found = real_roots(whole(poly))
+        if found is None:
+            self.within = True
+            return []
+        out = []
+        slack = [self.slack(ray)]
+        for t in found:
+            if all(t.sign_of(whole(plus(p, slack))) >= 0 for p in self.inside(u, v)):
+                signs = [max(0, t.sign_of(whole(minus(p, slack)))) for p in self.inside(u, v)]
+                normal, bend = self.normal(at(u, t.rational(200)), at(v, t.rational(200)))
+                out.append((t, Tangents(normal, bend), 0 in signs, (t.after > 0) - (t.after < 0) if t.before != t.after else 0))
+        return out
+
+    def low_places(self, ray):
+        return [t.rational(100) for t in real_roots(whole(slope(self.along(ray)[2]))) or []]
+
+    def normal(self, u, v):
+        def d(i, j):
+            fall = lambda n, k: [1, n, n * (n - 1)][k]
+            return sum(a * fall(p, i) * fall(q, j) * u ** max(p - i, 0) * v ** max(q - j, 0) for p, row in enumerate(self.terms) for q, a in enumerate(row) if p >= i and q >= j)
+
+        (_, k), (_, l) = self.spans
+        bend = abs(d(2, 0)) / k**2 + 2 * abs(d(1, 1)) / abs(k * l) + abs(d(0, 2)) / l**2
+        return (d(1, 0) / k, F(-1), d(0, 1) / l), 2 * bend
+
+
+# ---- scenes ----
+
+
+def draw(rng, wild):
+    return F(rng.uniform(-2, 2)) if wild else F(rng.randint(-4, 4))
+
+
+def points_of(rng, leaf, at_place):
+    def points():
+        for _ in range(3):
+            part = lambda: rng.choice((F(0), F(1), F(rng.randint(1, 7), 8), F(rng.random()), F(rng.random())))
+            p, n = at_place(part(), part())
+            p = near(p)
+            leaf.known[p] = n
+            yield p
+
+    return points
+
+
+def ruled(rng, kind):
+    n = 2 if kind == "bilinear" else rng.randint(2, 5)
+    scale, wild = F(2) ** rng.choice((0, 0, -6, 4, -20, 20)), rng.random() < 0.3
+    while True:
+        first, last = ([tuple(scale * draw(rng, wild) for _ in range(3)) for _ in range(n)] for _ in range(2))
+        if rng.random() < 0.15:
+            last = [last[0]] * n
+        leaf = Ruled("", first, last, None, [], 1)
+        if all(any(leaf.normal(F(i, 7), F(j, 7))[0]) for i in (2, 5) for j in (1, 6)):
+            break
+    if kind == "bilinear":
+        body = f"bilinear {{ {', '.join(map(vec, (*first, *last[::-1])))} }}"
+    else:
+        basis = rng.choice(("", "bezier_spline "))
+        body = f"patch {{ {basis}{n}, 2, {', '.join(map(vec, (*first, *last)))} }}"
+    place = lambda u, v: (tuple(at(a, u) + v * at(b, u) for a, b in zip(leaf.a, leaf.b)), leaf.normal(u, v)[0])
+    ways = [(1, 0, 0), (0, 1, 0), (0, 0, 1), sub(first[1], first[0]), sub(last[0], first[0]), sub(last[-1], first[-1])]
+    size = max(abs(x) for p in (*first, *last) for x in p)
+    leaf = Ruled(body, first, last, None, [w for w in ways if any(w)], size)
+    leaf.points = points_of(rng, leaf, place)
+    return leaf
+
+
+def bilinear(rng):
+    return ruled(rng, "bilinear")
+
+
+def tensor(rows):
+    """The factors of u^i v^j of a net: rows along v, in each the points along u."""
+    in_u = [bernstein(row) for row in rows]
+    columns = [bernstein([row[i] for row in in_u]) for i in range(len(rows[0]))]
+    return columns
+
+
+def patch(rng):
+    """Ruled ones, and graphs over a rectangle or a triangle."""
+    style = rng.choice(("ruled", "bezier", "bicubic", "b_spline", "triangular"))
+    if style == "ruled":
+        return ruled(rng, "patch")
+    wild, scale = rng.random() < 0.3, F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
+    square = lambda u, v: (u, minus([F(1)], u), v, minus([F(1)], v))
+    inside = square
+    if style == "triangular":
+        n = rng.randint(2, 4)
+        net = {(i, j): scale * draw(rng, wild) for j in range(n) for i in range(n - j)}
+        listed = [(scale * i, net[i, j], scale * j) for j in range(n) for i in range(n - j)]
+        body = f"patch {{ triangular {n}, {', '.join(map(vec, listed))} }}"
+        m = n - 1
+        terms = [[F(0)] * n for _ in range(n)]
+        for (i, j), h in net.items():
+            # m! / (i! j! k!) u^i v^j (1 - u - v)^k
+            k = m - i - j
+            for a in range(k + 1):
+                for b in range(k - a + 1):
+                    terms[i + a][j + b] += h * comb(m, i) * comb(m - i, j) * (-1) ** (a + b) * comb(k, a) * comb(k - a, b)
+        inside = lambda u, v: (u, v, minus([F(1)], plus(u, v)))
+        spans = ((F(0), scale * m), (F(0), scale * m))
+        ns = (n, n)
+    else:
+        ns = (4, 4) if style != "bezier" else (rng.randint(2, 5), rng.randint(2, 5))
+        net = [[scale * draw(rng, wild) for _ in range(ns[0])] for _ in range(ns[1])]
+        listed = ", ".join(vec((scale * i, net[j][i], scale * j)) for j in range(ns[1]) for i in range(ns[0]))
+        if style == "bicubic":
+            body = f"bicubic_patch {{ type {rng.choice((0, 1))} u_steps 2 v_steps 3 {listed} }}"
+        elif style == "bezier":
+            body = f"patch {{ {ns[0]}, {ns[1]}, {listed} }}"
+        else:
+            body = f"patch {{ b_spline 4, 4, {listed} }}"
+        if style == "b_spline":
+            # The Bezier points of one span: means of neighbours.
+            means = lambda p: [(p[0] + 4 * p[1] + p[2]) / 6, (2 * p[1] + p[2]) / 3, (p[1] + 2 * p[2]) / 3, (p[1] + 4 * p[2] + p[3]) / 6]
+            rows = [means(row) for row in net]
+            net = [list(r) for r in zip(*(means(column) for column in zip(*rows)))]
+            spans = ((scale, scale), (scale, scale))
+        else:
+            spans = ((F(0), scale * (ns[0] - 1)), (F(0), scale * (ns[1] - 1)))
+        terms = tensor(net)
+    size = scale * max(*ns, 4)
+    leaf = None
+
+    def place(u, v):
+        if style == "triangular" and u + v > 1:
+            u, v = 1 - u, 1 - v
+        height = sum(a * u**i * v**j for i, row in enumerate(terms) for j, a in enumerate(row))
+        return tuple(x0 + k * s for (x0, k), s in ((spans[0], u),)) + (height,) + (spans[1][0] + spans[1][1] * v,), leaf.normal(u, v)[0]
+
+    leaf = Graph(body, terms, spans, inside, None, [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 0)], size)
+    leaf.points = points_of(rng, leaf, place)
+    return leaf
