@@ -1,4 +1,4 @@
-//! What the triangles' filter calls certain is true.
+//! Answers that the triangles' filter calls certain are true.
 //!
 //! Vertices, origins and directions are integers, so `U`, `V`, `W` and the crossing's parameter are
 //! exact in 128 bits. Rays are aimed at vertices, edges and interiors; meshes are soups, fans and

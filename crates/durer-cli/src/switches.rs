@@ -16,7 +16,7 @@ struct Smoothing {
     depth: u32,
 }
 
-/// What the switches say, as durer's own options.
+/// The switches of the command line as durer's own options.
 struct Translated {
     options: Vec<OsString>,
     scene: Option<OsString>,

@@ -10,7 +10,7 @@ use durer_bvh::Leaf;
 use durer_math::{Ray, Shaft, Source};
 use durer_surfaces::{Need, SurfacePoint};
 
-/// What the rays of a bundle may hit, in the order of object and primitive.
+/// The primitives that the rays of a bundle may hit, in the order of object and primitive.
 #[derive(Clone, Debug, Default)]
 pub struct CandidateList {
     pub(crate) candidates: ArrayVec<Candidate, { CandidateList::MOST }>,

@@ -84,7 +84,7 @@ impl<'a> RayContext<'a> {
         }
     }
 
-    /// What the ray can hit in an arena.
+    /// The primitives of an arena that the ray can hit.
     #[inline(always)]
     pub(crate) fn filter(&self, arena: u32) -> Filter {
         let source = self.source.filter(|s| s.arena == arena && s.instance == self.placement.instance);

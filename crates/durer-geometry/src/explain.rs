@@ -91,7 +91,7 @@ pub enum Event {
     Tested {
         /// How deeply nested in instances.
         depth: u32,
-        /// What it is called.
+        /// Its name.
         surface: &'static str,
         /// Its object.
         object: ObjectId,

@@ -20,7 +20,7 @@ pub struct Stats {
     /// The tree.
     pub tree: durer_bvh::Stats,
     /// Bytes on the heap: surfaces (without what they own in turn), numbers and masks, the tree.
-    /// What instances share is not counted.
+    /// Memory that instances share is not counted.
     pub bytes: usize,
 }
 

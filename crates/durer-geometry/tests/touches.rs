@@ -30,7 +30,7 @@ fn cube(n: u32) -> Mesh {
     Mesh::new(data).unwrap().solid(Vec3::new(0.48, 0.6, 0.64)).unwrap()
 }
 
-/// What a line and the cube have in common, by its slabs; the numbers are small and whole, and the
+/// The common points of a line and the cube, by its slabs; the numbers are small and whole, and the
 /// parameters are compared exactly.
 fn common_with_cube(o: [i64; 3], d: [i64; 3]) -> Option<(f64, f64, bool)> {
     let (mut first, mut last) = ((i64::MIN, 1), (i64::MAX, 1));

@@ -37,7 +37,7 @@ impl fmt::Display for Location {
     }
 }
 
-/// What is wrong with a mesh file.
+/// An error in a mesh file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ErrorKind {
     /// The file's extension is not that of a known format.

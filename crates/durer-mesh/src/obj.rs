@@ -60,7 +60,7 @@ pub(crate) fn control_mesh(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<
     Ok(data)
 }
 
-/// What takes the statements.
+/// The receiver of the statements.
 trait Receiver {
     /// How many vertices, texture coordinates and normals there are so far.
     fn counts(&self) -> [usize; 3];

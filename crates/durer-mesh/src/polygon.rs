@@ -73,7 +73,7 @@ pub(crate) fn triangles(corners: &[Point3]) -> Option<Vec<[usize; 3]>> {
             i = (i + 1) % m;
         }
     }
-    // What is left of a self-intersecting polygon has no ears.
+    // The rest of a self-intersecting polygon has no ears.
     cut.extend(fan(&left));
     Some(cut)
 }

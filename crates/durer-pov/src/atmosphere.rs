@@ -1,4 +1,4 @@
-//! What surrounds the objects: the sky and fog.
+//! The surroundings of the objects: the sky and fog.
 
 use std::rc::Rc;
 

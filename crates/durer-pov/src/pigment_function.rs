@@ -160,7 +160,7 @@ fn mapped<T>(
     all.try_into().map_err(|_| Lack::Formula)
 }
 
-/// What is shown between two knots.
+/// The interpolation between two knots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Piece {
     /// One entry.

@@ -38,7 +38,7 @@ fn a_picture_is_read_with_all_that_is_said_of_it() {
     let map = image(NEW, "ppm \"a.ppm\" map_type 1 once interpolate 2 filter all 0.25");
     assert_eq!((map.layout, map.once, map.between), (Layout::Sphere, true, Between::Linear));
     assert_eq!((map.image.columns(), map.image.rows()), (2, 1));
-    // Of a PPM nothing is known, so its numbers stand as they are.
+    // A PPM file states no gamma, so its numbers are used unchanged.
     assert!(close(map.image.colour(0, 0), [64.0 / 255.0, 0.0, 0.0, 0.25, 0.0]));
 }
 

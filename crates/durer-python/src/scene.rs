@@ -30,7 +30,7 @@ pub(crate) struct Scene {
     files: Vec<PathBuf>,
 }
 
-/// What is without a look is light grey.
+/// Objects without a texture are light grey.
 fn painted(mut object: SceneObject, grey: &Arc<Texture>) -> SceneObject {
     match &mut object.shape {
         Shape::Union(parts) if object.texture.is_none() => {

@@ -37,7 +37,7 @@ pub(crate) struct Ways {
     pub(crate) live: M8,
 }
 
-/// What fog does to the light from behind it: `light * passed + added`.
+/// The effect of fog on the light from behind it: `light * passed + added`.
 pub(crate) struct Veil {
     pub(crate) passed: Rgb8,
     pub(crate) added: Rgb8,
@@ -102,7 +102,7 @@ fn halfway(stir: &Stir, ways: &Ways) -> F8 {
     stir.scalar(Point3::new(x * a, y * b, z * c))
 }
 
-/// What all fog does to the light from behind it; `None` without fog.
+/// The effect of all fog on the light from behind it; `None` without fog.
 pub(crate) fn veil(fogs: &[RenderFog], ways: &Ways) -> Option<Veil> {
     let mut all: Option<Veil> = None;
     for fog in fogs {

@@ -1,4 +1,4 @@
-//! What rays see that hit nothing: a sky in front of a background.
+//! The look of the sky: rays that hit nothing see it in front of the background.
 
 use crate::lanes::{Colour8, Rgb8};
 use crate::texture::RenderPigment;

@@ -40,7 +40,7 @@ pub struct World {
     pub(crate) encoding: Encoding,
 }
 
-/// What a surface looks like.
+/// The look of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     /// The index of its texture.

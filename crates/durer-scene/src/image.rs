@@ -86,7 +86,7 @@ pub struct ImageMap {
     pub layout: Layout,
     /// Whether it is there once, and not repeated side by side.
     pub once: bool,
-    /// What is shown between the middles of pixels.
+    /// The interpolation between the centres of pixels.
     pub between: Between,
 }
 
@@ -104,7 +104,7 @@ pub enum Layout {
     Torus,
 }
 
-/// What is shown between the middles of pixels.
+/// The interpolation between the centres of pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Between {
     /// The nearest pixel.

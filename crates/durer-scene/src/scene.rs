@@ -15,7 +15,7 @@ pub struct Scene {
     pub camera: Option<Camera>,
     /// The colour that rays without a hit see.
     pub background: Background,
-    /// What rays without a hit see in front of the background.
+    /// The sky in front of the background, for rays without a hit.
     pub sky: Option<SkySphere>,
     /// All fog.
     pub fogs: Vec<Fog>,

@@ -85,7 +85,7 @@ pub enum Shape {
     Polygon {
         /// Its loops, one or more. Their first points are not repeated at their ends.
         loops: Vec<Vec<Point3>>,
-        /// What lies inside the loops.
+        /// The rule that says which points are inside the loops.
         rule: FillRule,
     },
     /// Triangles over shared corners.
@@ -208,11 +208,11 @@ pub enum Shape {
 /// How solids make a solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// What is in any of them, without surfaces inside.
+    /// The union of the parts, without surfaces inside.
     Merge,
-    /// What is in all of them.
+    /// The intersection of the parts.
     Intersection,
-    /// What is in the first and in none of the others.
+    /// The first part without all others.
     Difference,
 }
 
@@ -247,7 +247,7 @@ pub struct Deform {
     /// The solid: of shapes with an inside that have a formula, combined in any way. A union is the
     /// solid of its parts here. Textures in it do not count.
     pub solid: Object,
-    /// What is done to it.
+    /// The deformation.
     pub warps: Vec<Warp>,
 }
 
@@ -345,7 +345,7 @@ pub struct Blob {
     pub textures: Vec<Option<Arc<Texture>>>,
 }
 
-/// What holds the surface of a function.
+/// The container of a function's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Container {
     /// A box between two opposite corners.

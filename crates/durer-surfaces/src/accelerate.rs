@@ -8,7 +8,7 @@ use durer_math::{Aabb, Affine, Point3, RaySide, Shaft};
 /// How a surface is found faster: its parts, its packet filters, tighter bounds, and tests for
 /// bundles of rays. Every method has a default, so `impl Accelerate for Mine {}` is enough.
 pub trait Accelerate: Surface {
-    /// What the surface is called in explanations and statistics, in the singular.
+    /// The surface's name in explanations and statistics, in the singular.
     fn name(&self) -> &'static str {
         "surface"
     }

@@ -115,7 +115,7 @@ struct Passage {
 /// their error is `STEEP` times the first.
 const STEEP: f64 = 1.0 / (1u64 << 20) as f64;
 
-/// What the filter knows.
+/// The data of the filter.
 enum Quick {
     /// The ray misses the box.
     Miss,

@@ -1,4 +1,4 @@
-//! What fuzzing has found worth keeping, once more.
+//! Inputs that fuzzing found, run again as tests.
 
 #[path = "../tests/corpus/operations.rs"]
 mod operations;

@@ -16,7 +16,7 @@ use durer_math::{Dyadic, EFloat, Isa, Normal3, Point3, Ring, U, Vec3};
 /// A triangle by its vertices; the normal is `(v1 - v0) x (v2 - v0)`.
 pub(crate) type Facet = [Point3; 3];
 
-/// What may vary over a triangle.
+/// The attributes that may vary over a triangle.
 pub(crate) struct Varying {
     pub(crate) normals: Option<[Normal3; 3]>,
     pub(crate) uv: Option<[[f64; 2]; 3]>,

@@ -68,7 +68,7 @@ impl Root {
     }
 }
 
-/// What kind of crossing a root is.
+/// The kind of crossing at a root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum RootKind {

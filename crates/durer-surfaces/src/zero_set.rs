@@ -61,7 +61,7 @@ pub trait Polynomial<const N: usize>: Send + Sync {
     /// must not depend on [`Ring::sign`] or on the type `T`.
     fn value<T: Ring>(&self, p: [T; 3], w: T) -> T;
 
-    /// What the surface is called in explanations and statistics, in the singular.
+    /// The surface's name in explanations and statistics, in the singular.
     fn name(&self) -> &'static str {
         "polynomial surface"
     }

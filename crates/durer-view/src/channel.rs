@@ -5,7 +5,7 @@ use durer_geometry::{Event, Geometry};
 use durer_math::{Ray, elementary};
 use durer_surfaces::Need;
 
-/// What the pixels show.
+/// The quantity that the pixels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Channel {
     /// The picture itself.

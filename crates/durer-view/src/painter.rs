@@ -78,7 +78,7 @@ struct Painting<'a> {
     scale: Option<Scale>,
 }
 
-/// What pixels show, before it becomes bytes.
+/// The values of pixels, before they become bytes.
 enum Shown {
     Colours(Vec<Rgb>),
     Measures(Vec<Measure>),

@@ -1,6 +1,6 @@
 //! Colours for numbers.
 
-/// What is shown where a ray hits nothing.
+/// The colour of pixels whose ray hits nothing.
 pub(crate) const NOTHING: [u8; 3] = [38, 42, 50];
 
 /// Colours from dark to light for numbers from 0 to 1: nine equidistant colours of the map

@@ -28,7 +28,7 @@ const STALLED: Duration = Duration::from_secs(20);
 /// The most requests that compute at a time.
 const MOST_QUERIES: usize = 2;
 
-/// What all connections share.
+/// The state that all connections share.
 pub(crate) struct Server {
     pub(crate) session: Arc<Session>,
     /// The secret first part of every path.

@@ -30,7 +30,7 @@ pub(crate) struct Session {
     pub(crate) cancel: AtomicBool,
 }
 
-/// What changes often.
+/// The state that changes often.
 pub(crate) struct Shared {
     /// Grows with every change of what is to be painted.
     pub(crate) generation: u64,
@@ -57,7 +57,7 @@ pub(crate) struct Shared {
     next_browser: u64,
 }
 
-/// What a browser knows.
+/// The part of the state that a browser has received.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
     /// Whether the coarse picture was sent that a new browser gets first.
@@ -235,7 +235,7 @@ impl Session {
     }
 }
 
-/// What the painter paints.
+/// The task of the painter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
     pub(crate) generation: u64,

@@ -24,7 +24,7 @@ use durer_surfaces::{
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What a ray can hit in an arena.
+/// The primitives of an arena that a ray can hit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Filter {
     /// The ray hits only surfaces whose mask has a common bit.
@@ -99,7 +99,7 @@ pub(crate) trait AnyArena: Send + Sync {
     fn as_any(&mut self) -> &mut dyn core::any::Any;
     /// Converts to an arena that can be arranged anew.
     fn reopen(self: Box<Self>) -> Box<dyn Arrange>;
-    /// What the surface of a slot is called.
+    /// The name of the surface in a slot.
     fn surface_name(&self, slot: u32) -> &'static str;
     /// How many slots there are.
     fn len(&self) -> u32;

@@ -17,7 +17,7 @@ use crate::transform::Matrix;
 /// The threshold of a blob that states none.
 const THRESHOLD: f64 = 1.0;
 
-/// What a component takes, but for what its texture holds.
+/// The parameters of a component, without its texture.
 const EACH: usize = size_of::<BlobComponent>() + size_of::<Option<Rc<Texture>>>();
 
 /// The fields, and the textures that some of them have, moved with them.
@@ -41,7 +41,7 @@ impl Blob {
         self.textures.push(texture);
     }
 
-    /// What it holds in memory.
+    /// The memory that it needs.
     pub(crate) fn size(&self) -> usize {
         self.components.len() * EACH + self.layers * size_of::<Layer>()
     }

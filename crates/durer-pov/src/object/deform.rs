@@ -1,6 +1,6 @@
 //! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  formula { ... }  modifiers }`.
 //!
-//! What is done to the solid is done in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
+//! The deformations of a solid follow each other in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -88,7 +88,7 @@ impl Parser<'_> {
         Ok(Shape::Deform(solid, warps.into()))
     }
 
-    /// What stands in the braces of one of the words.
+    /// The text in the braces of one of the words.
     fn warp(&mut self, inner: impl FnOnce(&mut Self) -> Result<Warp>) -> Result<Warp> {
         self.expect(Mark::BraceOpen)?;
         let warp = inner(self)?;

@@ -53,7 +53,7 @@ pub(crate) enum Shape {
         a: [f64; 3],
         b: [f64; 3],
     },
-    /// What has no point to be seen, such as a sphere of radius 0.
+    /// An object without a visible point, such as a sphere of radius 0.
     Nothing,
     Cylinder {
         base: [f64; 3],
@@ -168,7 +168,7 @@ pub(crate) struct Object {
     /// From the shape's own numbers to the block around.
     pub(crate) place: Matrix,
     pub(crate) texture: Option<Rc<Texture>>,
-    /// What is seen from inside.
+    /// The texture that is seen from inside.
     pub(crate) interior_texture: Option<Rc<Texture>>,
     /// Its parts lend each other their textures.
     pub(crate) cutaway_textures: bool,

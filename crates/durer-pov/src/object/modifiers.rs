@@ -156,7 +156,7 @@ impl Parser<'_> {
         Ok(true)
     }
 
-    /// What may be said of a texture where it is part of an object: itself, another one on it, or its pigment, normal or finish.
+    /// Texture statements that an object may hold: a texture, another one on it, or a pigment, normal or finish.
     pub(super) fn texture_item(&mut self, texture: &mut Option<Rc<Texture>>) -> Result<bool> {
         match self.peek()? {
             Item::Word(Keyword::Texture) => {

@@ -34,7 +34,7 @@ const STEPS: u64 = 20;
 /// Bytes that a surface takes when it is ready for rays, about.
 const SURFACE_BYTES: usize = 400;
 
-/// What POV-Ray says of the extent of what has no end.
+/// The extent that POV-Ray gives to unbounded objects.
 const UNBOUNDED: f64 = 1e10;
 
 /// An object that was asked, ready for rays.
@@ -55,7 +55,7 @@ struct Ready {
     triangles: Vec<Triangle>,
 }
 
-/// What the normal of a primitive is.
+/// The kind of a primitive's normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Triangle {
     /// That of the kernel.
@@ -398,7 +398,7 @@ fn is_sheet(shape: &scene::Shape) -> bool {
     }
 }
 
-/// What the normals of the primitives are, if there are triangles among them.
+/// The kinds of the primitives' normals, if there are triangles among them.
 fn triangles(object: &scene::Object) -> Vec<Triangle> {
     let mut kinds = Vec::new();
     collect_triangles(object, &mut kinds);

@@ -15,7 +15,7 @@ pub(crate) struct Colours {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
     pub(crate) pixels: Pixels,
-    /// What the file says of its numbers.
+    /// The meaning of the numbers as the file states it.
     pub(crate) gamma: FileGamma,
 }
 
@@ -25,7 +25,7 @@ pub(crate) enum Pixels {
     Indexed(Vec<[f32; 4]>, Vec<u8>),
 }
 
-/// What the numbers of a file mean.
+/// The meaning of the numbers of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FileGamma {
     /// Nothing is said; usual files of this format are encoded as sRGB.
@@ -87,7 +87,7 @@ pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHo
     Ok(Colours { columns, rows, pixels: Pixels::Plain(pixels), gamma })
 }
 
-/// What the chunks of a PNG file say of its numbers.
+/// The meaning of a PNG file's numbers by its chunks.
 fn png_gamma(bytes: &[u8]) -> Option<FileGamma> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_ignore_text_chunk(true);

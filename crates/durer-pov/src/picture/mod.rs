@@ -105,7 +105,7 @@ impl Format {
         }
     }
 
-    /// What a file of this format begins with; TGA has no mark.
+    /// The first bytes of every file of this format; TGA has none.
     fn is_begun_by(self, bytes: &[u8]) -> bool {
         match self {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),

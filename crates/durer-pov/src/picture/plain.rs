@@ -94,7 +94,7 @@ fn i32_at(bytes: &[u8], at: usize) -> i32 {
     i32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }
 
-/// What the bytes of a pixel mean: blue comes before green and red.
+/// The meaning of a pixel's bytes: blue comes before green and red.
 #[derive(Clone, Copy, PartialEq)]
 enum Pixels {
     Index,

@@ -25,7 +25,7 @@ pub(crate) struct ReadImage {
 /// Bytes of a pixel.
 const PIXEL: usize = size_of::<[f32; 5]>();
 
-/// What is said of a file's numbers, in the block or by the file.
+/// The meaning of a file's numbers, as the block or the file states it.
 #[derive(Clone, Copy, PartialEq)]
 enum Meaning {
     AsTheyAre,

@@ -29,7 +29,7 @@ pub(crate) struct Normal {
     pub(crate) is_bump_map: bool,
 }
 
-/// What perturbs a normal.
+/// The perturbation of a normal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NormalKind {
     Pattern(PatternKind),

@@ -57,9 +57,9 @@ pub struct ShadowRay {
     pub light: usize,
     /// Where the ray ends.
     pub target: Point3,
-    /// What the light would add to the pixel if nothing were in the way.
+    /// The light that would reach the pixel if nothing were in the way.
     pub unblocked: Rgb,
-    /// What it adds.
+    /// The light that reaches the pixel.
     pub arrived: Rgb,
 }
 

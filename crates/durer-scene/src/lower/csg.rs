@@ -24,14 +24,14 @@ struct Work {
     is_clear: bool,
 }
 
-/// What combines parts: a union, or one of the operations without inner faces.
+/// How parts are combined: a union, or one of the operations without inner faces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Boolean {
     Union,
     Csg(Operation),
 }
 
-/// What becomes of a part.
+/// The fate of a part.
 #[derive(Clone, Copy)]
 struct How {
     shown: Shown,
@@ -79,7 +79,7 @@ impl Lowering {
         self.around_camera.push((medium, Box::new(Arc::clone(body))));
     }
 
-    /// What `part` has in common with what clips it.
+    /// The intersection of `part` and the regions that clip it.
     fn cut(&mut self, part: Part, clips: &[Cutter<'_>], work: &mut Work) -> Result<Part, LowerError> {
         if clips.is_empty() {
             return Ok(part);

@@ -53,7 +53,7 @@ pub struct LowerError {
     pub kind: LowerErrorKind,
 }
 
-/// What is wrong with an object.
+/// The error of an object.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LowerErrorKind {
@@ -238,7 +238,7 @@ struct Cutter<'s> {
     region: Option<durer_surfaces::Region>,
 }
 
-/// What the geometry is built for.
+/// The use for which the geometry is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Purpose {
     /// Crossings, spans, sides of points.

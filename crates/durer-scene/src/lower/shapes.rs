@@ -18,7 +18,7 @@ use super::camera_media::Enclosure;
 use super::{LowerErrorKind, fold_transform, level_set, named_quadric};
 use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 
-/// What became of a shape.
+/// The result of lowering a shape.
 pub(super) enum Built {
     /// It is in the geometry; where it is solid and asked for, with the test for its inside.
     Done(Option<Box<dyn Enclosure>>),
@@ -211,7 +211,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
     Ok(Built::Done(target.inside))
 }
 
-/// What holds a function's surface.
+/// The container of a function's surface.
 pub(super) fn container(it: Container) -> Result<durer_surfaces::Container> {
     Ok(match it {
         Container::Box(a, b) => durer_surfaces::Container::Box(AxisBox::new(a, b).map_err(shape_error)?),

@@ -163,7 +163,7 @@ pub struct Clip<S> {
 const REMEMBERED: usize = 8;
 
 impl<S: Algebraic> Clip<S> {
-    /// What of `surface` lies in all `regions`, their borders included.
+    /// The part of `surface` in all `regions`, their borders included.
     pub fn new(surface: S, regions: Vec<Region>) -> Self {
         let around = regions.iter().map(|_| Default::default()).collect();
         Self { surface, regions, around }
@@ -253,7 +253,7 @@ struct Keeping<'a, 'r, S, K: ?Sized> {
     clip: &'a Clip<S>,
     ray: &'a LocalRay<'r>,
     sink: &'a mut K,
-    /// What lies elsewhere is in none of the regions' boxes.
+    /// Points elsewhere are in none of the regions' boxes.
     range: (f64, f64),
 }
 

@@ -256,7 +256,7 @@ mod tests {
     #[derive(Clone)]
     struct OneOfTwo {
         body: ExactBody,
-        /// What lies on the other side is in front of this plane, or behind it.
+        /// Points on the other side are in front of this plane, or behind it.
         beyond: Ordering,
     }
 

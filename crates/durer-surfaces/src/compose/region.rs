@@ -82,7 +82,7 @@ impl<S: QuadricFaces> Faces for QuadricSolid<S> {
     }
 }
 
-/// What a half-space's face is in a frame at the origin: its normal by a power of two to about one.
+/// The face of a half-space in a frame at the origin. A power of two scales its normal to about one.
 fn plane<T: Ring>(n: [f64; 3], distance: f64) -> Form<T> {
     let k = -exponent(Vec3::from(n).max_abs());
     Form::half_space(n.map(|x| T::exact(x).scale2(k)), -T::exact(distance).scale2(k))
@@ -242,7 +242,7 @@ impl Region {
         if self.map.as_ref() == map { self.slabs[0] } else { Aabb::UNBOUNDED }
     }
 
-    /// What the region leaves of a surface.
+    /// The part of a surface that is in the region.
     pub(super) fn cut(&self, surface: FilterSource) -> FilterSource {
         let region = self.faces.sketch();
         let region = match &self.map {

@@ -64,7 +64,7 @@ pub(super) struct Pass {
     pub(super) sure: bool,
 }
 
-/// What f64 knows of a line and a leaf.
+/// The facts about a line and a leaf that f64 arithmetic proves.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Quick {
     Miss,

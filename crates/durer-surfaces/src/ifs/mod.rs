@@ -51,7 +51,7 @@ use std::sync::Arc;
 /// The greatest depth.
 pub const MOST_LEVELS: u32 = 20;
 
-/// What an [`Ifs`] copies.
+/// The solid that an [`Ifs`] copies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IfsLeaf {
     /// The box between two corners.
@@ -126,7 +126,7 @@ const LARGEST: f64 = durer_math::scale::pow2(200);
 
 #[derive(Clone, Debug)]
 struct System {
-    /// What was given.
+    /// The input.
     given: IfsLeaf,
     depth: u32,
     frames: Frames,
@@ -255,7 +255,7 @@ impl Ifs {
         self.0.depth
     }
 
-    /// What is copied.
+    /// The solid that is copied.
     pub fn leaf(&self) -> IfsLeaf {
         self.0.given
     }

@@ -81,7 +81,7 @@ pub(super) fn isolate(
     true
 }
 
-/// What bounds of the values alone prove.
+/// The facts that bounds of the values alone prove.
 fn sign_infos(v: &I8) -> [Option<SignInfo>; 8] {
     let sign = signs(v);
     core::array::from_fn(|i| match sign[i] {

@@ -24,7 +24,7 @@ pub(super) const DEEPEST: u32 = 6;
 /// The margin, as a fraction of the container's size.
 const MARGIN: f64 = 1.0 / (1u64 << 28) as f64;
 
-/// What is certain about a cell.
+/// The facts that are proven about a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cell {
     /// The formula has this sign in all of it.
@@ -117,7 +117,7 @@ struct OctreeBuild {
     shorter: HashMap<u32, HashMap<Box<[u64]>, u32>>,
 }
 
-/// What a stretch of a ray is in.
+/// The kind of cell that holds an interval of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CellLookup<'a> {
     /// The formula has this sign.

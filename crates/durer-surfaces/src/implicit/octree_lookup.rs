@@ -14,7 +14,7 @@ const BRICK: u32 = 2;
 /// The number of places along each axis.
 const PLACES: f64 = (1_u32 << DEEPEST) as f64;
 
-/// What is certain in the cell of a point.
+/// The facts that are proven in the cell of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Lookup {
     /// The formula has this sign.
@@ -145,7 +145,7 @@ impl Grid {
         (((x - self.min[axis]) * self.over[axis]) as i32).clamp(0, (1 << DEEPEST) - 1) as u32
     }
 
-    /// What is certain in the cell of a point.
+    /// The facts that are proven in the cell of a point.
     pub(super) fn look_up(&self, [x, y, z]: [f64; 3]) -> Lookup {
         Lookup::of(self.cell([self.place(x, 0), self.place(y, 1), self.place(z, 2)]) >> 3)
     }

@@ -40,7 +40,7 @@ pub(crate) trait CertifiedFunction {
     }
 }
 
-/// What is certain about `g` on a stretch.
+/// The facts about `g` that are proven on an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SignInfo {
     /// It is defined and has this sign (`true`: positive) on all of it.

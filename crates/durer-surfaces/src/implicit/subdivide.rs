@@ -40,7 +40,7 @@ pub(super) struct Pieces {
     high: F8,
 }
 
-/// What is certain about pieces.
+/// The facts that are proven about pieces.
 #[derive(Clone, Copy)]
 struct Certain {
     out: M8,

@@ -42,7 +42,7 @@ const ROOM: f64 = 1.0 / 64.0;
 /// So many times as far as a point may be off it counts as a point of a plane between octants. Two
 /// would be enough of where lines go through these by rounded numbers.
 const NEAR: f64 = 8.0;
-/// What has a coordinate of this size is outside.
+/// Points with a coordinate of this size are outside.
 const FAR_OUT: f64 = 4.0;
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
@@ -83,7 +83,7 @@ impl Star {
         let slip = slip(p.x, d.x).max(slip(p.y, d.y)).max(slip(p.z, d.z));
         let off = |p: F8, d: F8| slip * (d + line.e_d) * (1.0 + 16.0 * U) + e + p * (4.0 * U);
         let off = Vec3::new(off(p.x, d.x), off(p.y, d.y), off(p.z, d.z));
-        // What is not a number, or endless, holds all that counts.
+        // A bound that is NaN or infinite excludes nothing.
         let least = |p: F8, off: F8| (p - off).max(F8::ZERO);
         let most = |p: F8, off: F8| (p + off).min(F8::splat(FAR_OUT));
         Sizes {

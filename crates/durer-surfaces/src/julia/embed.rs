@@ -222,7 +222,7 @@ impl<'a, const M: usize, const C: usize> EmbeddedLine<'a, M, C> {
         }
     }
 
-    /// What is certain about eight stretches.
+    /// The facts that are proven about eight intervals.
     #[inline(never)]
     pub(super) fn known(&self, mid: &F8, half: &F8) -> StretchSigns8 {
         Isa::detect().run(
@@ -261,7 +261,7 @@ impl<'a, const M: usize, const C: usize> EmbeddedLine<'a, M, C> {
         self.known(&mid, &half)
     }
 
-    /// What is certain at eight points.
+    /// The facts that are proven at eight points.
     #[inline(always)]
     pub(super) fn at(&self, s: &[f64; 8]) -> StretchSigns8 {
         self.known(&F8(*s), &F8::ZERO)

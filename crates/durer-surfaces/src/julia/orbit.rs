@@ -35,7 +35,7 @@ pub(super) struct Ball<T, const C: usize> {
     pub(super) d: Eight<T>,
 }
 
-/// What is certain about eight stretches.
+/// The facts that are proven about eight intervals.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StretchSigns8 {
     /// Certainly outside.

@@ -1,4 +1,4 @@
-//! What balls around orbits say of stretches, against orbits in exact arithmetic.
+//! The facts that balls around orbits prove about intervals, against orbits in exact arithmetic.
 
 use super::JuliaPower;
 use super::orbit::{Ball, Rule, TINY};

@@ -41,7 +41,7 @@ impl Site {
     }
 }
 
-/// What a face reports of a line that meets one of its edges or vertices.
+/// The report of a face about a line that meets one of its edges or vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Report {
     /// Nothing: another face does, or none.

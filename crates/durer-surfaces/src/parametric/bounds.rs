@@ -1,4 +1,4 @@
-//! What cuts a sheet: a box or a ball.
+//! The bounds that cut a sheet: a box or a ball.
 
 use super::piece::Unit;
 use crate::Container;

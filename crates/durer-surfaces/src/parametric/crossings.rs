@@ -1,4 +1,4 @@
-//! What one ray found, each crossing once.
+//! The crossings that one ray found, each once.
 
 use super::line::Found;
 use super::piece::Face;

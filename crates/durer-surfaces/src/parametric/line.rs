@@ -97,7 +97,7 @@ impl View<'_> {
         (out, e)
     }
 
-    /// What a box of points has of both functions: whether both may vanish.
+    /// Bounds of both functions in a box of points: whether both may vanish.
     #[inline(always)]
     fn may_vanish(&self, hull: &[Interval; 3]) -> bool {
         if hull.iter().any(|x| !(x.lo.is_finite() && x.hi.is_finite())) {
@@ -117,7 +117,7 @@ impl View<'_> {
         (Local { f, j }, Limits { e, e_j, h: [[0.0; 3]; 2] })
     }
 
-    /// What a piece holds.
+    /// The content of a piece.
     #[inline(always)]
     pub(super) fn content(&self, piece: &Piece) -> Content {
         if !self.may_vanish(&piece.hull) {

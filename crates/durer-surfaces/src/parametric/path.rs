@@ -26,7 +26,7 @@ pub enum PathSpline {
 }
 
 impl PathSpline {
-    /// What the spline is called.
+    /// The spline's name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear_spline",
@@ -98,7 +98,7 @@ pub(super) struct Span {
     /// The unit tangent and the frame's first axis at the beginning.
     pub(super) t: Vec3,
     pub(super) x: Vec3,
-    /// What is left of the turn to the next knot's frame.
+    /// The rest of the turn to the next knot's frame.
     pub(super) turn: f64,
     /// The normals of the planes in which a straight span begins and ends.
     pub(super) mitres: [Vec3; 2],
@@ -124,7 +124,7 @@ fn tangent(points: &[[f64; 4]; 4], at_end: bool) -> Option<Vec3> {
     direction(if at_end { d - c } else { b - a })
 }
 
-/// What is left of `v` across the unit vector `t`, of length 1.
+/// The part of `v` at right angles to the unit vector `t`, of length 1.
 fn across(v: Vec3, t: Vec3) -> Option<Vec3> {
     direction(v - t * v.dot(t))
 }

@@ -111,7 +111,7 @@ impl Face {
         self
     }
 
-    /// What is known on each of these boxes; those where nothing is defined are left out.
+    /// The bounds on each of these boxes; those where nothing is defined are left out.
     pub(super) fn pieces(&self, number: u32, boxes: &[Domain], unit: &Unit, out: &mut Vec<Piece>) {
         for boxes in boxes.chunks(8) {
             let own: [Domain; 8] = core::array::from_fn(|i| boxes[i.min(boxes.len() - 1)]);

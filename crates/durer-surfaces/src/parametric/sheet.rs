@@ -27,7 +27,7 @@ pub(super) struct Sheet {
     pub(super) unit: Unit,
     /// The radius of a ball about the centre that holds everything.
     pub(super) reach: f64,
-    /// What cuts it, in units.
+    /// The bounds that cut it, in units.
     pub(super) cut: Bounds,
     gap: f64,
     /// In the order of the tree.

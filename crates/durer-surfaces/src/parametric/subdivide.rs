@@ -71,7 +71,7 @@ pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
     }
 }
 
-/// What the slowest combination of both functions says of a part.
+/// The bounds of the combination of both functions that changes most slowly on a part.
 enum Slow {
     /// It vanishes nowhere.
     Clear,

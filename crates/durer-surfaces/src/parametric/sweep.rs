@@ -86,7 +86,7 @@ pub enum SweepError {
     Inside(usize),
 }
 
-/// What a [`PathSweep`] is made of.
+/// The input of a [`PathSweep`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepData {
     /// Closed outlines in the plane across the path, as Bezier pieces.
@@ -182,7 +182,7 @@ impl PathSweep {
         self
     }
 
-    /// What it is made of.
+    /// The input that it was made from.
     pub fn data(&self) -> &SweepData {
         &self.data
     }

@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// The highest degree.
 const MOST_DEGREE: usize = 9;
 
-/// What makes a [`Nurbs`] surface: both of each pair are along `u` and along `v`.
+/// The input of a [`Nurbs`] surface: the first of each pair is along `u`, the second along `v`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NurbsData {
     /// The degrees, 1 to 9.
@@ -372,7 +372,7 @@ impl Nurbs {
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans })
     }
 
-    /// What it was made from.
+    /// The input that it was made from.
     pub fn data(&self) -> &NurbsData {
         &self.data
     }

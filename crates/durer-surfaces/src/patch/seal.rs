@@ -20,7 +20,7 @@ const LEAVE: u32 = 4;
 /// More than all changes of a line together.
 const NEVER: u32 = 1 << 20;
 
-/// What may be done with a crossing.
+/// The choices for a crossing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// It is one.

@@ -31,7 +31,7 @@ pub(super) struct Edge {
     samples: Vec<Vec3>,
 }
 
-/// What two edges are to each other.
+/// The relation of two edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Match {
     Along,
@@ -81,7 +81,7 @@ impl Surfaces<'_> {
                 self.sides(surface, &mut edges);
             }
         }
-        // What has no length is no edge.
+        // Pieces of length zero are no edges.
         edges.retain(|e| {
             let same = |p: &Homogeneous<Dd>, q: &Homogeneous<Dd>| (0..3).all(|c| p[c] * q[3] == q[c] * p[3]);
             match &e.points {

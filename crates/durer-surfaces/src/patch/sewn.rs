@@ -16,7 +16,7 @@ use crate::{All, LocalPoint, LocalRay, Need, Root, RootKind, Side, Solidity, Sur
 use durer_math::{Point3, Ray, Vec3};
 use std::sync::Arc;
 
-/// What makes a [`Sewn`] surface.
+/// The input of a [`Sewn`] surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SewnData {
     /// The surfaces.
@@ -167,7 +167,7 @@ impl Sewn {
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: spans.into() })
     }
 
-    /// What it was made from.
+    /// The input that it was made from.
     pub fn data(&self) -> &SewnData {
         &self.data
     }

@@ -29,7 +29,7 @@ const MOST_DOUBLE: usize = 64;
 /// patch is on the ray, a collapsed edge say, and nothing is gained in double-double.
 const MOST_OPEN: usize = 8;
 
-/// What control values are computed in: f64, and double-double where that does not tell.
+/// The arithmetic of control values: f64, and double-double where f64 does not decide.
 trait Word: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> {
     /// Bounds the relative error of a sum and of a product.
     const UNIT: f64;

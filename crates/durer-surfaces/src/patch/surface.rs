@@ -1,11 +1,11 @@
-//! What all surfaces of patches have in common as a [`Surface`](crate::Surface).
+//! The [`Surface`](crate::Surface) implementation that all surfaces of patches share.
 
 use super::shell::Shell;
 use crate::{LocalPoint, Need, Root, Side, Solidity, SurfacePoint};
 
 /// A surface whose crossings are those of its shell.
 pub(super) trait Patches {
-    /// What it is called.
+    /// Its name.
     const NAME: &'static str;
 
     fn shell(&self) -> &Shell;

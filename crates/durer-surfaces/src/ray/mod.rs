@@ -293,7 +293,7 @@ impl<'a> LocalRay<'a> {
                 far = far.min(b + b.abs() * (2.0 * SURE) + TINY);
             }
         }
-        // What is not a number is no bound, and not in order either.
+        // NaN is no bound, and compares with nothing.
         if near > far {
             return None;
         }

@@ -81,7 +81,7 @@ pub(crate) struct Bernstein<T, const N: usize> {
     pub(crate) e: f64,
 }
 
-/// What the signs of Bernstein coefficients prove.
+/// The facts that the signs of Bernstein coefficients prove.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Count {
     /// No root, ends included: the sign is the same all over.
@@ -121,7 +121,7 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         self.b.iter().fold(0.0, |m: f64, b| m.max(b.to_f64().abs())) * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// What the signs prove.
+    /// The facts that the signs prove.
     #[inline(always)]
     pub(crate) fn count(&self) -> Count {
         // For double-doubles |hi + lo| >= |hi| (1 - U).

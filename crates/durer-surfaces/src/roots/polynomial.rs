@@ -379,7 +379,7 @@ pub(crate) fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) 
     Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
 }
 
-/// What is being solved.
+/// The equation that is being solved.
 struct Work<'w, L, F, const N: usize> {
     line: &'w L,
     limits: &'w Limits,

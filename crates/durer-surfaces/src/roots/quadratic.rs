@@ -24,7 +24,7 @@ pub struct Quadratic<T> {
     pub c: T,
 }
 
-/// What a quadratic does at a root. The inside is where it is negative.
+/// The behaviour of a quadratic at a root. It is negative inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Crossing {
     /// It falls through zero.

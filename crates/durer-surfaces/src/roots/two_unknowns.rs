@@ -36,7 +36,7 @@ pub(crate) struct Local {
     pub(crate) j: [[f64; 2]; 2],
 }
 
-/// What is known of both functions in a box: per function.
+/// Bounds of both functions in a box, for each function.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     /// Bounds on the errors of the values.
@@ -47,7 +47,7 @@ pub(crate) struct Limits {
     pub(crate) h: [[f64; 3]; 2],
 }
 
-/// What a box may hold.
+/// The possible content of a box.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
     /// No zero.

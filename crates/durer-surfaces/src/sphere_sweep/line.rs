@@ -20,7 +20,7 @@ pub(super) const MOST: usize = 4;
 /// Pays for the rounding of a few f64 operations on numbers that are bounds themselves.
 const ROUNDED: f64 = 1.0 + 64.0 * U;
 
-/// What cannot be decided with numbers of this precision.
+/// A question that numbers of this precision do not decide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt;
 

@@ -5,7 +5,7 @@ use super::formula::{NodeId, Op};
 use durer_math::interval::elementary::{Defined, Range};
 use durer_math::{Comparison, Function, I8, Interval, Number};
 
-/// What a step comes to.
+/// The result of a step.
 pub(super) enum Simpler {
     /// The result of another step.
     Same(NodeId),

@@ -1,4 +1,4 @@
-//! What a formula is: steps, each of which uses the results of earlier ones.
+//! A formula is a list of steps, each of which uses the results of earlier ones.
 
 use super::fold;
 use durer_math::{Comparison, Function, Interval};
@@ -52,7 +52,7 @@ pub enum Op {
     Pow(NodeId, NodeId),
     /// The angle of `(b, a)`.
     Atan2(NodeId, NodeId),
-    /// What whole numbers of `b` leave of `a`, with the sign of `a`.
+    /// The remainder of `a` divided by `b`, with the sign of `a`.
     Rem(NodeId, NodeId),
     /// Noise at a point of space.
     Noise([NodeId; 3]),

@@ -21,7 +21,7 @@ use durer_math::{Dual, Function, I8, Interval, Number, Point3, Vec3};
 /// Sides of so many choices are told apart: lanes are eight.
 const MOST_JUMPS: usize = 3;
 
-/// What decides on which side a step is.
+/// The value that decides on which side a step is.
 #[derive(Clone, Copy, PartialEq)]
 enum Choice {
     /// The sign of this step, for all that take zero to the same side: below, above.
@@ -82,7 +82,7 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
         Op::Function(Function::Floor | Function::Ceil | Function::Trunc, _) | Op::Compare(..) => {
             one_of_two(value, upper)
         }
-        // What whole numbers of b leave of a: a - b trunc(a/b).
+        // The remainder of a divided by b: a - b trunc(a/b).
         Op::Rem(a, b) => {
             let (a, b) = (&before[a.0 as usize], &before[b.0 as usize]);
             let whole = I8::function(Function::Trunc, &I8::div(a, b));

@@ -24,7 +24,7 @@ impl Powers {
     /// How many coefficients there are at most.
     pub(crate) const LEN: usize = 17;
 
-    /// What is no polynomial that is known.
+    /// Not known to be a polynomial.
     const UNKNOWN: Self = Self { c: [0.0; Self::LEN], e: [0.0; Self::LEN], degree: Self::LEN };
     const ZERO: Self = Self { degree: 0, ..Self::UNKNOWN };
 
@@ -137,7 +137,7 @@ impl Number for Powers {
 
     fn powi(a: &Self, n: i32) -> Self {
         match u32::try_from(n) {
-            // What is not defined everywhere is not 1.
+            // A value that is not defined everywhere is not 1.
             Ok(0) if a.degree < Self::LEN => Self::constant(Interval { lo: 1.0, hi: 1.0 }),
             Ok(n @ 1..) if n < Self::LEN as u32 => (1..n).fold(*a, |power, _| Self::mul(&power, a)),
             _ => Self::UNKNOWN,

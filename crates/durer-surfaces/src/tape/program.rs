@@ -338,7 +338,7 @@ impl Tape {
     }
 }
 
-/// What a step comes to on a box.
+/// The result of a step on a box.
 enum Decided {
     Same(NodeId),
     Op(Op),

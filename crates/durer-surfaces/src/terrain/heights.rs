@@ -29,7 +29,7 @@ pub trait Heights: Clone + Debug + Send + Sync {
     /// The name of the surface.
     const NAME: &'static str;
 
-    /// What is known of a block.
+    /// Bounds of a block.
     type Data: Copy;
 
     /// How many cells there are along x and along z; at least one.

@@ -59,7 +59,7 @@ impl<'a> Line<'a> {
         let farthest = if ray.d_err.max_abs() < 0.25 { 2.0 * (reach + away) } else { f64::INFINITY };
         let rounding = 16.0 * U * (reach + away + 2.0 * farthest);
         let error = ray.o_err + ray.d_err * farthest + Vec3::new(rounding, rounding, rounding);
-        // What is not a number is no bound.
+        // NaN is no bound.
         let error = error.map(|e| if e < f64::MAX { e } else { f64::MAX });
         // A parallel ray passes a border nowhere, or everywhere: `E` decides which.
         let inverse = ray.d.map(|d| if d == 0.0 { f64::MAX } else { (1.0 / d).clamp(-f64::MAX, f64::MAX) });
@@ -140,7 +140,7 @@ impl<'a> Line<'a> {
     pub(super) fn passes(&self, [low, high]: [f64; 2], (near, far): (f64, f64)) -> bool {
         let at = |s: f64| s.mul_add(self.d.y, self.o.y);
         let (a, b, centre) = (at(near), at(far), self.ray.centre.y);
-        // What is not a number is everywhere.
+        // NaN may be anywhere.
         !(a.min(b) - self.error.y > high - centre || a.max(b) + self.error.y < low - centre)
     }
 

@@ -15,7 +15,7 @@ use durer_surfaces::{
     SphericalSector, SurfaceOfRevolution, Torus, Triangle, superellipsoid,
 };
 
-/// What the tests can decide about points beside the surface.
+/// The facts that the tests can decide about points beside the surface.
 #[derive(Clone, Copy)]
 pub(super) enum Sides {
     /// A solid with a single face: it has an inside and an outside along the normal everywhere.

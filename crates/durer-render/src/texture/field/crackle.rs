@@ -33,7 +33,7 @@ enum Metric {
 }
 
 impl Metric {
-    /// What is summed over the axes.
+    /// The term of one axis in the sum over the axes.
     fn part(self, x: f64) -> f64 {
         match self {
             Self::Sum => x.abs(),

@@ -86,19 +86,19 @@ impl LevelSet {
         self.pulled_back(bounds, |pen, p| pen.undone(p, place))
     }
 
-    /// What is in any of them; nothing of none.
+    /// The union; it is empty if there is none.
     pub fn union(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, part| all.union(part.bounds));
         Self::joined(parts, bounds, 1.0, ExprBuilder::min)
     }
 
-    /// What is in all of them; everything of none.
+    /// The intersection; it is the whole space if there is none.
     pub fn intersection(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::UNBOUNDED, |all, part| all.intersection(part.bounds));
         Self::joined(parts, bounds, -1.0, ExprBuilder::max)
     }
 
-    /// What is not in it.
+    /// The complement.
     pub fn complement(&self) -> Result<Self, FormulaError> {
         let (mut pen, p) = ExprBuilder::new()?;
         let f = pen.call(&self.formula, p)?;

@@ -210,7 +210,7 @@ pub fn blob(threshold: f64, components: &[BlobComponent], bounds: Aabb) -> Resul
     Ok(LevelSet::new(below(&super::blob::missing(components)?, -threshold)?, bounds))
 }
 
-/// What is below a value of a function, in a container.
+/// The points of a container where a function is below a value.
 pub fn isosurface(
     function: &Formula,
     threshold: f64,

@@ -28,7 +28,7 @@ struct GaugeSample {
     slope: f64,
 }
 
-/// What is said of a ray.
+/// The answer for a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::implicit) enum Answer {
     /// All roots were shown.
@@ -39,7 +39,7 @@ pub(in crate::implicit) enum Answer {
     Open,
 }
 
-/// What is known of a line after a few passes.
+/// The proven facts about a line after a few passes.
 enum StretchClass {
     /// It misses.
     Misses,

@@ -61,7 +61,7 @@ impl Gauge {
         self.sample(isa, &Vec3::new(at(0), at(1), at(2)), &mut sample);
         let (g, m) = (sample.value.0[0], level(p, sample.gradient.lane(0)));
         let ulp = p.to_vec().abs() * (4.0 * U) + Vec3::new(1.0, 1.0, 1.0) * least_step(p);
-        // What rounding a start moves it, and what the place and the value err.
+        // The error by the rounding of a start, and the errors of the place and of the value.
         let lost = ulp.x + ulp.y + ulp.z + REST + VALUE * (1.0 + 1.0 / 64.0);
         let along = m.dot(n) - 4.0 * self.turn * (m.abs().dot(n.abs()));
         let outward = ((1.0 - g).max(0.0) + lost) / along;

@@ -31,7 +31,7 @@ use durer_math::{F8, Isa, U, Vec3, elementary};
 pub(super) const VALUE: f64 = 128.0 * U;
 /// A coordinate's least size.
 const LEAST: f64 = pow2(-64);
-/// What that and one rounding of each coordinate of a point cost, with room to spare.
+/// A bound of the error by that and by one rounding of each coordinate of a point.
 pub(super) const REST: f64 = 8.0 * U;
 /// Lower exponents, whose powers count for nothing, are taken for this.
 const LOWEST: f64 = -1000.0;
@@ -73,7 +73,7 @@ pub(super) struct Factors {
     pub(super) z: F8,
 }
 
-/// What both are made of.
+/// The constants of both.
 struct Shares {
     /// The logarithms of `N` and of `G`.
     across: F8,

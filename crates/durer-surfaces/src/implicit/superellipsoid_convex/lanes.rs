@@ -1,4 +1,4 @@
-//! Convex superellipsoids as lanes see them.
+//! Convex superellipsoids in packets of eight rays.
 //!
 //! Of each of eight rays two places are looked at, `a` and `r` behind it (`mod.rs` says why that is
 //! enough):
@@ -127,7 +127,7 @@ impl ImplicitKernel for Gauge {
                 told.falls |= falls;
                 told.b = (rises | misses).select(told.last, told.b);
                 told.hint = narrowed.select(over, NEVER);
-                // What is left can only be tried again shorter.
+                // The rest can only be tried again in shorter intervals.
                 told.seen |= first & !narrowed;
             },
         );

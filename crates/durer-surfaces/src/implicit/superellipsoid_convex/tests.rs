@@ -183,7 +183,7 @@ fn values_and_gradients_keep_their_bounds() {
         for i in 0..3 {
             let (got, want) = (sample.gradient.lane(0)[i], &gradient[i]);
             assert!(got == 0.0 || x[i] == 0.0 || got.signum() == x[i].signum());
-            // What is that small does not count, and may be lost.
+            // Crossings that small do not count, and may be lost.
             if number(want) < durer_math::scale::pow2(-60) || x[i].abs() < durer_math::scale::pow2(-63) {
                 assert!(
                     got.abs() < durer_math::scale::pow2(-59) || x[i].abs() < durer_math::scale::pow2(-63)

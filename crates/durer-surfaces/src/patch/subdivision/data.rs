@@ -13,7 +13,7 @@ pub enum Scheme {
     CatmullClark,
 }
 
-/// What happens at vertices that only one face has.
+/// The rule at vertices that only one face has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {
     /// They are sharp corners.
@@ -26,7 +26,7 @@ pub enum Boundary {
 /// From this sharpness on an edge or a vertex is sharp for ever.
 pub(super) const INFINITELY_SHARP: f64 = 10.0;
 
-/// What makes a [`SubdivisionSurface`](super::SubdivisionSurface). Numbers of vertices and faces
+/// The input of a [`SubdivisionSurface`](super::SubdivisionSurface). Numbers of vertices and faces
 /// count from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SubdivisionData {

@@ -135,7 +135,7 @@ pub(super) enum Spot {
     Split(u32),
 }
 
-/// What the tree holds.
+/// An element of the tree.
 #[derive(Clone, Copy, Debug)]
 enum Item {
     Cell(u32),

@@ -187,7 +187,7 @@ impl SubdivisionSurface {
         Ok(Self { data: Arc::new(data), limit, origins: origins.into(), uv: uv.into(), is_closed })
     }
 
-    /// What it was made from.
+    /// The input that it was made from.
     pub fn data(&self) -> &SubdivisionData {
         &self.data
     }

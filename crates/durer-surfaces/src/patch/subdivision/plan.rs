@@ -31,7 +31,7 @@ pub(super) struct Wheel {
     pub(super) across: Box<[u32]>,
 }
 
-/// What becomes of a face.
+/// How a face is met.
 #[derive(Clone, Debug)]
 pub(super) enum Plan {
     /// A bicubic B-spline patch: the points of its net, row by row from v = -1 on; without those
@@ -53,7 +53,7 @@ pub(super) struct Plans {
     known: HashMap<Vec<u64>, u32>,
 }
 
-/// What tells one neighbourhood from another.
+/// The properties by which neighbourhoods differ.
 fn key(mesh: &Topology) -> Vec<u64> {
     let mut key = vec![mesh.points as u64, mesh.faces.len() as u64];
     key.extend(mesh.faces.iter().flat_map(|f| f.iter().map(|v| u64::from(*v))));

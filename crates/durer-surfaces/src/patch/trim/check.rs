@@ -318,7 +318,7 @@ fn range(piece: &Piece, [x, y]: [f64; 2]) -> (f64, f64) {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(along(p)), high.max(along(p))))
 }
 
-/// What projections round, and errors of both curves.
+/// The rounding of projections, and the errors of both curves.
 fn room(a: &Piece, b: &Piece) -> f64 {
     let size = [a, b].iter().fold(0.0, |m: f64, p| {
         let Box2 { low, high } = p.bounds();

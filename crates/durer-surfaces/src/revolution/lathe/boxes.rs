@@ -5,7 +5,7 @@
 use crate::CentredRay;
 use durer_math::scale::pow2;
 
-/// What the heights and the radii of a group of pieces lie between, in the frame, rounded outward.
+/// Bounds of the heights and the radii of a group of pieces, in the frame, rounded outward.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hollow {
     pub(super) y: [f64; 2],

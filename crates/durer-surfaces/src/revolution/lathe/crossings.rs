@@ -33,7 +33,7 @@ pub(super) struct Crossed {
     pub(super) at: Crossing,
 }
 
-/// What the crossings of one ray have in common.
+/// The data that the crossings of one ray share.
 pub(super) struct Pass<'a, 'r> {
     pub(super) lathe: &'a Lathe,
     pub(super) probe: &'a Probe<'r>,

@@ -113,7 +113,7 @@ impl<'a> ExactCrossing<'a> {
         }
     }
 
-    /// What orders crossings of one branch along the ray: `±Y(w)`, or `±r(w)²`, in an interval.
+    /// The key that orders crossings of one branch along the ray: `±Y(w)`, or `±r(w)²`, in an interval.
     fn key(&mut self, bits: i32) -> (Dyadic, Dyadic) {
         let (p, falls) = match self.equation {
             Equation::Slanted => (self.above(), self.ray.d[1].exact_sign().is_lt()),
