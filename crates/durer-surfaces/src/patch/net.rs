@@ -38,7 +38,8 @@ impl FaceNet {
                 Self::Square(Net { size: net.size, points: net.points.iter().map(f).collect() })
             }
             Self::Triangle(net) => {
-                Self::Triangle(TriangleNet { side: net.side, points: net.points.iter().map(f).collect() })
+                let points = net.points.iter().map(f).collect();
+                Self::Triangle(TriangleNet { side: net.side, points, lost: net.lost })
             }
         }
     }
@@ -61,7 +62,7 @@ impl FaceNet {
     pub(super) fn lost(&self) -> f64 {
         match self {
             Self::Square(_) => durer_math::scale::pow2(-90),
-            Self::Triangle(net) => durer_math::scale::pow2(-97) * power(3.0, net.side - 1),
+            Self::Triangle(net) => net.lost * power(3.0, net.side - 1),
         }
     }
 }

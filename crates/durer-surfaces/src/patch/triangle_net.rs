@@ -20,6 +20,8 @@ pub(crate) struct TriangleNet {
     /// How many points a side has: the degree and one.
     pub(crate) side: usize,
     pub(crate) points: Vec<Homogeneous<Dd>>,
+    /// How far the points are off, as a part of the size of all.
+    pub(crate) lost: f64,
 }
 
 /// How many points a net has whose sides have this many.
@@ -77,7 +79,7 @@ impl TriangleNet {
                 first = step(&first, n - k + 1, o);
             }
         }
-        Self { side, points }
+        Self { side, points, lost: self.lost }
     }
 
     /// The same polynomials over the square whose lower left half the triangle is, as a net of a
