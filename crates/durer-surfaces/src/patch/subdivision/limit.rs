@@ -37,6 +37,8 @@ const NOISE: f64 = 8.0;
 pub(super) const MOST_STEPS: u32 = 120;
 /// Steps that are taken ahead at most.
 pub(super) const AHEAD: u32 = 6;
+/// The same for triangles, whose patches take more time to make.
+const AHEAD_TRIANGLES: u32 = 3;
 /// Fewer steps are taken ahead if there would be more patches than this.
 const MANY: usize = 1 << 18;
 /// So many steps of corners are kept, of about 16 kB each.
@@ -57,11 +59,16 @@ impl Place {
         Self { face, is_triangle, from: [0.0; 2], width: 1.0 }
     }
 
-    pub(super) fn quarter(&self, k: usize) -> Self {
-        let width = 0.5 * self.width;
+    /// The parameters of a corner; the fourth one of a triangle is that of the square.
+    fn corner(&self, k: usize) -> [f64; 2] {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-        let [a, b] = if self.is_triangle { triangle[k] } else { square[k] };
+        if self.is_triangle { triangle[k] } else { square[k] }
+    }
+
+    pub(super) fn quarter(&self, k: usize) -> Self {
+        let width = 0.5 * self.width;
+        let [a, b] = self.corner(k);
         let from = [a * width + self.from[0], b * width + self.from[1]];
         let is_turned = self.is_triangle && k == 3;
         Self { from, width: if is_turned { -width } else { width }, ..*self }
@@ -172,7 +179,8 @@ pub(super) struct Patch {
     /// Its control points relative to the leaf's base.
     hull: Box<[[f64; 3]]>,
     net: FaceNet,
-    cells: Box<[Cell]>,
+    /// Made when a ray meets the hull.
+    cells: OnceLock<Box<[Cell]>>,
 }
 
 /// A face that is no patch, and what it is refined to, once a ray has come near.
@@ -203,15 +211,22 @@ impl Tail {
     }
 }
 
+impl Patch {
+    fn cells(&self) -> &[Cell] {
+        self.cells.get_or_init(|| {
+            let mut all = Vec::new();
+            cells(&self.net, false, 0, &mut all);
+            all.into_iter().map(|(cell, _)| cell).collect()
+        })
+    }
+}
+
 impl Refined {
     fn new(node: Node, plans: &[Plan]) -> Self {
         let Some(net) = node.net(plans) else { return Self::Tail(Tail::new(node)) };
         let leaf = Leaf::new(node.place, &net);
         let hull = relative(net.points(), leaf.base).iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-        let mut all = Vec::new();
-        cells(&net, false, 0, &mut all);
-        let cells = all.into_iter().map(|(cell, _)| cell).collect();
-        Self::Patch(Box::new(Patch { leaf, hull, net, cells }))
+        Self::Patch(Box::new(Patch { leaf, hull, net, cells: OnceLock::new() }))
     }
 }
 
@@ -316,6 +331,7 @@ impl Limit {
         let plans = plans.all;
         let corners =
             roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
+        let most = if is_triangles { most.min(AHEAD_TRIANGLES) } else { most };
         let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut nets, mut tails) = (Vec::new(), Vec::new(), Vec::new());
@@ -475,15 +491,16 @@ impl Limit {
             }
             return;
         }
-        // All of it is as near as the ray is known.
+        // All of it is as near as the ray is known; the vertex stands for it.
+        let (place, wheel) = (tail.node.place, tail.node.wheel(&self.plans));
         let middle = [if self.is_triangles { 1.0 / 3.0 } else { 0.5 }; 2];
         let [low, high] = sight.plane.unwrap_or(sight.s);
         let face = (self.leaves.len() + lists.extra.len()) as u32;
-        lists.extra.push(Extra { place: tail.node.place, room: sight.s[1] - sight.s[0] });
+        lists.extra.push(Extra { place, room: sight.s[1] - sight.s[0] });
         lists.found.push(Found {
             face,
-            uv: middle,
-            radius: middle.map(|x| 1.0 - x),
+            uv: wheel.map_or(middle, |wheel| place.corner(wheel.centre as usize)),
+            radius: [1.0; 2],
             alone: [0.0; 2],
             s: 0.5 * (low + high),
             s_err: 0.5 * (high - low) * (1.0 + 4.0 * U) + U * (low.abs() + high.abs()),
@@ -502,7 +519,7 @@ impl Limit {
         let (face, first) = ((self.leaves.len() + lists.extra.len()) as u32, lists.found.len());
         lists.extra.push(Extra { place: patch.leaf.place, room: 0.0 });
         let exact = Exact::new(at, core::slice::from_ref(&patch.net), line.axes);
-        for cell in &patch.cells {
+        for cell in patch.cells() {
             meet_cell(line, cell, &exact, &mut lists.found);
         }
         for found in &mut lists.found[first..] {

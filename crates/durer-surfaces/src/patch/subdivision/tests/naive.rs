@@ -203,7 +203,7 @@ impl Naive {
                 steps.map(|i| f[(k + i) % f.len()])
             })
             .collect();
-        let mut round = vec![parts[0]];
+        let mut round = vec![*parts.first()?];
         while round.len() < parts.len() {
             let last = round[round.len() - 1][2];
             round.push(*parts.iter().find(|p| p[0] == last)?);
