@@ -87,7 +87,7 @@ pub(crate) struct SceneArgs {
 pub(crate) enum Subdivide {
     /// Catmull and Clark's: any polygons.
     CatmullClark,
-    /// Loop's: triangles. Not supported yet.
+    /// Loop's: triangles.
     Loop,
 }
 

@@ -7,7 +7,7 @@ use durer::math::Isa;
 use durer::mesh::{Format, Topology};
 use durer::pov::{Limits, MessageKind, Read, ReadOptions};
 use durer::render::{World, WorldError};
-use durer::scene::{LowerError, Lowered, Place, Scene, Shape};
+use durer::scene::{LowerError, Lowered, Place, Scene, Scheme, Shape};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub(crate) fn load(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Load
     let options = read_options(args, (width, height))?;
     if Format::of(&args.scene).is_some() {
         return match args.subdivide {
-            Some(_) => load_subdivided(&args.scene, (width, height)),
+            Some(scheme) => load_subdivided(&args.scene, scheme, (width, height)),
             None => load_mesh(&args.scene, (width, height)),
         };
     }
@@ -61,14 +61,9 @@ pub(crate) fn read_options(args: &SceneArgs, (width, height): (u32, u32)) -> Res
     if Format::of(&args.scene).is_none() {
         check_ending(&args.scene)?;
     }
-    if let Some(scheme) = args.subdivide {
-        if scheme == Subdivide::Loop {
-            return Err(Failure::Usage("not supported yet: --subdivide loop".into()));
-        }
-        if Format::of(&args.scene) != Some(Format::Obj) {
-            let got = args.scene.display();
-            return Err(Failure::Usage(format!("--subdivide needs an .obj file, got '{got}'")));
-        }
+    if args.subdivide.is_some() && Format::of(&args.scene) != Some(Format::Obj) {
+        let got = args.scene.display();
+        return Err(Failure::Usage(format!("--subdivide needs an .obj file, got '{got}'")));
     }
     let mut limits = Limits::default();
     for (name, value) in &args.limit {
@@ -99,12 +94,20 @@ fn load_mesh(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure
     Ok(Loaded::Mesh(path.to_path_buf(), Box::new(model.into_scene(width, height))))
 }
 
-fn load_subdivided(path: &Path, (width, height): (u32, u32)) -> Result<Loaded, Failure> {
+fn load_subdivided(
+    path: &Path,
+    subdivide: Subdivide,
+    (width, height): (u32, u32),
+) -> Result<Loaded, Failure> {
     let read = durer::mesh::read_control_mesh(path).map_err(|e| Failure::Input(format!("error: {e}")))?;
-    let (data, warnings) = read;
+    let (mut data, warnings) = read;
     for warning in &warnings {
         eprintln!("{}", mesh_warning(path, warning));
     }
+    data.scheme = match subdivide {
+        Subdivide::CatmullClark => Scheme::CatmullClark,
+        Subdivide::Loop => Scheme::Loop,
+    };
     let scene = durer::mesh::subdivided_scene(data, width, height);
     Ok(Loaded::Mesh(path.to_path_buf(), Box::new(scene)))
 }

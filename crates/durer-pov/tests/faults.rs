@@ -204,7 +204,11 @@ fn patches_say_what_is_wrong_with_them() {
             "knots must not fall: knot 4 is 1 after 2",
         ),
         ("subdivision { }", "this subdivision has no face_indices"),
-        ("subdivision { scheme loop }", "not supported yet: scheme loop"),
+        ("subdivision { scheme loop }", "this subdivision has no face_indices"),
+        (
+            "subdivision { vertex_vectors { 4, 0, x, x + y, y } face_indices { 1, <0, 1, 2, 3> } scheme loop }",
+            "subdivision: face 0 has 4 vertices, Loop's rules are for triangles",
+        ),
         ("subdivision { scheme square }", "a scheme is catmull_clark or loop"),
         (
             "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }",

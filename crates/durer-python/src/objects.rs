@@ -283,9 +283,10 @@ fn subdivision(
     corners: Vec<(u32, f64)>,
     holes: Vec<u32>,
     smooth_boundary: bool,
+    is_loop: bool,
 ) -> PyResult<Object> {
     checked(Shape::Subdivision(Arc::new(SubdivisionData {
-        scheme: Scheme::CatmullClark,
+        scheme: if is_loop { Scheme::Loop } else { Scheme::CatmullClark },
         vertices: vertices.into_iter().map(point).collect(),
         faces,
         uv,

@@ -9,7 +9,7 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::source::read_bytes;
 use durer_math::Point3;
-use durer_scene::{Boundary, SubdivisionData};
+use durer_scene::{Boundary, Scheme, SubdivisionData};
 
 /// Bytes of a list of corners, besides them.
 const LIST: usize = size_of::<Vec<u32>>();
@@ -68,12 +68,13 @@ impl Parser<'_> {
             if self.small_word("scheme")? {
                 self.peek()?;
                 let at = self.here();
-                if self.small_word("loop")? {
-                    return Err(Error::unsupported(at, "scheme loop"));
-                }
-                if !self.small_word("catmull_clark")? {
+                data.scheme = if self.small_word("loop")? {
+                    Scheme::Loop
+                } else if self.small_word("catmull_clark")? {
+                    Scheme::CatmullClark
+                } else {
                     return Err(Error::invalid(at, "a scheme is catmull_clark or loop"));
-                }
+                };
             } else if self.small_word("creases")? {
                 data.creases = self.counted(16, |r| {
                     let [a, b, sharpness] = r.crease::<3>("a crease is <vertex, vertex, sharpness>", 2)?;

@@ -180,7 +180,7 @@ class Sewn(Object):
 
 @final
 class Subdivision(Object):
-    """The limit of Catmull and Clark's subdivision of a control mesh; a solid if the mesh is closed.
+    """The limit of a control mesh under subdivision; a solid if the mesh is closed.
 
     Parameters
     ----------
@@ -198,6 +198,8 @@ class Subdivision(Object):
         Whether vertices with one face are sharp.
     uv, uv_faces : array (k, 2) and sequence of sequences, optional
         Texture coordinates, and their numbers at the corners of each face.
+    scheme : "catmull_clark" or "loop"
+        Whose rules: Catmull and Clark's for any polygons, or Loop's for triangles.
 
     Examples
     --------
@@ -221,18 +223,21 @@ class Subdivision(Object):
         boundary: str = "corners",
         uv: npt.ArrayLike | None = None,
         uv_faces: Sequence[Sequence[int]] = (),
+        scheme: str = "catmull_clark",
     ) -> None:
         if boundary not in ("corners", "smooth"):
             raise ValueError(f'boundary: "corners" or "smooth" is needed, got {boundary!r}')
+        if scheme not in ("catmull_clark", "loop"):
+            raise ValueError(f'scheme: "catmull_clark" or "loop" is needed, got {scheme!r}')
         points = row_tuples(vertices, 3, "vertices")
         polygons, uv_polygons = _polygons(faces, "faces"), _polygons(uv_faces, "uv_faces")
         coordinates = None if uv is None else row_tuples(uv, 2, "uv")
         edges = tuple((_index(a, "creases"), _index(b, "creases"), number(s, "creases")) for a, b, s in creases)
         sharp = tuple((_index(v, "corners"), number(s, "corners")) for v, s in corners)
         missing = tuple(_index(face, "holes") for face in holes)
-        smooth = boundary == "smooth"
-        native = _native.subdivision(points, polygons, coordinates or (), uv_polygons, edges, sharp, missing, smooth)
-        self._set(native, (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons))
+        flags = (boundary == "smooth", scheme == "loop")
+        native = _native.subdivision(points, polygons, coordinates or (), uv_polygons, edges, sharp, missing, *flags)
+        self._set(native, (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons, scheme))
 
 
 def _index(value: Any, name: str) -> int:

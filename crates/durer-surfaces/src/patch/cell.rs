@@ -5,7 +5,8 @@
 //! *Journal of Graphics Tools* 5 (2000) 27-52. What they test by the angle of normals is here a
 //! bound on `I - Y F'` for a ray along the normal: second derivatives, divided by slopes.
 
-use super::net::{FaceNet, Homogeneous, half, relative, steepest};
+use super::net::{FaceNet, Homogeneous, Net, half, relative, steepest, widened};
+use super::triangle_net::lower_half;
 use durer_math::{Aabb, Isa, Point3, U, Vec3};
 
 /// How far beyond its borders a cell's bounds hold, in widths of the cell.
@@ -145,18 +146,28 @@ impl Cell {
     /// The part of a patch in a box of parameters, and a box that holds it, in units: the convex hull
     /// of its control points does.
     #[inline(always)]
-    fn new(patch: &FaceNet, rational: bool, face: u32, from: [f64; 2], width: [f64; 2]) -> (Self, Aabb) {
+    fn new(
+        patch: &FaceNet,
+        own: &Net,
+        rational: bool,
+        face: u32,
+        from: [f64; 2],
+        width: [f64; 2],
+    ) -> (Self, Aabb) {
         let to = [from[0] + width[0], from[1] + width[1]];
-        let own = patch.part(from, to);
         let size = own.size;
-        let beyond = [0, 1].map(|k| MARGIN * width[k]);
-        let wide =
-            patch.part([from[0] - beyond[0], from[1] - beyond[1]], [to[0] + beyond[0], to[1] + beyond[1]]);
         let plain = own.relative([0.0; 3]);
         let at = point_of(&plain, size, [0.5, 0.5])[0];
         let base = [0, 1, 2].map(|k| at[k] / at[3]);
         let mut net = own.relative(base);
-        let far = wide.relative(base);
+        // Beyond the cell; a part of a triangle is costly, and f64 will do.
+        let (far, far_err) = if patch.is_triangle() {
+            widened(&net, size, MARGIN)
+        } else {
+            let beyond = [0, 1].map(|k| MARGIN * width[k]);
+            let (low, high) = ([0, 1].map(|k| from[k] - beyond[k]), [0, 1].map(|k| to[k] + beyond[k]));
+            (patch.part(low, high).relative(base), 0.0)
+        };
         let most =
             |net: &[Homogeneous<f64>]| net.iter().flat_map(|p| &p[..3]).fold(0.0, |m: f64, x| m.max(x.abs()));
         let reach = most(&net);
@@ -177,7 +188,8 @@ impl Cell {
         let degrees = [(size[0] - 1) as f64, (size[1] - 1) as f64];
         // Also pays for what the points of very small patches, deep in a subdivision surface, are off
         // by.
-        let rounding = 16.0 * U * wide_reach.max(if rational { weights[0] } else { 0.0 }).max(SMALL);
+        let rounding =
+            (16.0 + far_err) * U * wide_reach.max(if rational { weights[0] } else { 0.0 }).max(SMALL);
         let bound = |along: [usize; 2]| {
             let mut most = steepest(&far, size, along);
             let mut scale = 1.0;
@@ -197,14 +209,20 @@ impl Cell {
         let e_point = sums(size) * U * spread * reach;
         // Of a half, the net of the triangle is nearer.
         let is_half = patch.is_triangle() && to[0] + to[1] > 1.0;
+        let mut room = 0.0;
         let hull = match patch {
+            FaceNet::Triangle(_) if is_half && !rational => {
+                let (half, err) = lower_half(&net, size[0]);
+                room = err * U * reach;
+                half.iter().map(|&[x, y, z]| [x, y, z, 1.0]).collect()
+            }
             FaceNet::Triangle(all) if is_half => relative(&all.part(half(from, to)).points, base),
             _ => net.clone(),
         };
         let place = |p: &Homogeneous<f64>| {
             Point3::new(p[0] / p[3] + base[0], p[1] / p[3] + base[1], p[2] / p[3] + base[2])
         };
-        let room = 8.0 * U * (1.0 + most(&hull) / least(&hull));
+        let room = 8.0 * U * (1.0 + most(&hull) / least(&hull)) + room;
         let bounds = Aabb::from_points(hull.iter().map(place)).expanded(Vec3::new(room, room, room));
         let cell = Self {
             face,
@@ -261,13 +279,16 @@ pub(super) fn cells(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(C
 
 #[inline(always)]
 fn cut_up(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(Cell, Aabb)>) {
-    let mut open = vec![([0.0; 2], [0_u32; 2])];
-    while let Some((from, halved)) = open.pop() {
+    // Of triangles each square comes from the one before, others from the whole.
+    let first = patch.is_triangle().then(|| patch.part([0.0; 2], [1.0; 2]));
+    let mut open = vec![([0.0; 2], [0_u32; 2], first)];
+    while let Some((from, halved, own)) = open.pop() {
         if patch.is_triangle() && from[0] + from[1] >= 1.0 {
             continue;
         }
         let width = halved.map(|n| durer_math::scale::pow2(-(n as i32)));
-        let (cell, bounds) = Cell::new(patch, rational, face, from, width);
+        let own = own.unwrap_or_else(|| patch.part(from, [from[0] + width[0], from[1] + width[1]]));
+        let (cell, bounds) = Cell::new(patch, &own, rational, face, from, width);
         let [u, v] = cell.bend();
         let may = [0, 1].map(|k| halved[k] < FINEST);
         let is_flat = u + v <= FLAT || may == [false; 2] || (u + v).is_nan();
@@ -282,8 +303,10 @@ fn cut_up(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(Cell, Aabb)
             let halved = halved.map(|n| n + 1);
             let half = 0.5 * width[0];
             let [x, y] = from;
-            let corners = [[x + half, y + half], [x, y + half], [x + half, y], from];
-            open.extend(corners.map(|from| (from, halved)));
+            let [low, high] = own.halves(1);
+            let ([a, b], [c, d]) = (low.halves(0), high.halves(0));
+            let corners = [([x + half, y + half], d), ([x, y + half], c), ([x + half, y], b), (from, a)];
+            open.extend(corners.map(|(from, own)| (from, halved, Some(own))));
             continue;
         }
         let k = if may == [true; 2] { usize::from(v > u) } else { usize::from(may[1]) };
@@ -295,6 +318,6 @@ fn cut_up(patch: &FaceNet, rational: bool, face: u32, out: &mut Vec<(Cell, Aabb)
         let (mut halved, mut second) = (halved, from);
         halved[k] += 1;
         second[k] += 0.5 * width[k];
-        open.extend([(second, halved), (from, halved)]);
+        open.extend([(second, halved, None), (from, halved, None)]);
     }
 }

@@ -10,8 +10,6 @@ use durer_math::{Dd, EFloat};
 pub(super) struct Exact<'a> {
     at: &'a CentredRay<'a>,
     faces: &'a [FaceNet],
-    /// The number of the first face.
-    first: u32,
     /// Origin and direction, axes in the order in which the line is sheared.
     ray: OnceCell<Option<[[EFloat<Dd>; 3]; 2]>>,
     axes: [usize; 3],
@@ -19,12 +17,7 @@ pub(super) struct Exact<'a> {
 
 impl<'a> Exact<'a> {
     pub(super) fn new(at: &'a CentredRay<'a>, faces: &'a [FaceNet], axes: [usize; 3]) -> Self {
-        Self { at, faces, first: 0, ray: OnceCell::new(), axes }
-    }
-
-    /// The same with faces that are numbered from `first` on.
-    pub(super) fn numbered_from(self, first: u32) -> Self {
-        Self { first, ..self }
+        Self { at, faces, ray: OnceCell::new(), axes }
     }
 
     /// The control values over a box of parameters of both functions that vanish at a crossing, times
@@ -36,7 +29,7 @@ impl<'a> Exact<'a> {
             Some([o, d])
         });
         let [o, d] = ray.as_ref()?;
-        let face = self.faces.get(face.checked_sub(self.first)? as usize)?;
+        let face = self.faces.get(face as usize)?;
         let net = face.part(low, high);
         // The net is off by this much of its size, as cells assume.
         let lost = face.lost();

@@ -79,14 +79,34 @@ pub(super) struct Sight {
     pub(super) s: [f64; 2],
     /// The same for points near their common plane, if they have one that the line is not along.
     pub(super) plane: Option<[f64; 2]>,
-    /// The sign of `S_u x S_v . d` at the corners of the first four points, 0 if it differs.
+    /// The sign of `S_u x S_v . d` at the corners of the face, 0 if it differs.
     pub(super) turn: i8,
 }
 
+impl Sight {
+    /// Whether the line provably misses the convex hull of the points.
+    pub(super) fn is_clear(&self) -> bool {
+        (0..2).any(|i| self.f[i][0] > self.e[i] || self.f[i][1] < -self.e[i])
+    }
+}
+
+/// The least and the greatest of both functions over points, bounds on their errors, and what they
+/// are computed from.
+struct Spread {
+    f: [[f64; 2]; 2],
+    e: [f64; 2],
+    /// The third coordinates, less the origin's, and a bound on their errors.
+    z: [f64; 2],
+    z_err: f64,
+    /// The origin, counted from the base, and a bound on its error.
+    o: [f64; 3],
+    o_err: [f64; 3],
+    /// The error of a point.
+    e_net: f64,
+}
+
 impl Line {
-    /// Points relative to `base`, each rounded and off by `e_points` at most besides; the first four
-    /// are the corners of a face.
-    pub(super) fn sight(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> Sight {
+    fn spread(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> Spread {
         let (mut o, mut o_err) = ([0.0; 3], [0.0; 3]);
         for k in 0..3 {
             let (near, lost) = two_diff(self.o[k], base[self.axes[k]]);
@@ -113,12 +133,25 @@ impl Line {
             let rounding = U * (2.0 * size(i) + 2.0 * slope * z_size);
             e[i] = (e_net.mul_add(1.0 + slope, given) + rounding) * ROUNDED;
         }
+        Spread { f, e, z: zs, z_err: e_net + o_err[2] + U * z_size, o, o_err, e_net }
+    }
+
+    /// Whether the line provably misses the convex hull of points relative to `base`, each rounded and
+    /// off by `e_points` at most besides.
+    pub(super) fn misses(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> bool {
+        let Spread { f, e, .. } = self.spread(base, points, e_points);
+        (0..2).any(|i| f[i][0] > e[i] || f[i][1] < -e[i])
+    }
+
+    /// Points relative to `base`, each rounded and off by `e_points` at most besides; the first three
+    /// or four are the corners of a face.
+    pub(super) fn sight(&self, base: [f64; 3], points: &[[f64; 3]], corners: usize, e_points: f64) -> Sight {
+        let Spread { f, e, z: zs, z_err, o, o_err, e_net } = self.spread(base, points, e_points);
         let known = (self.d_z.abs() - self.d_z_err).max(0.0);
         let along = |z: f64, z_err: f64| {
             let s = z / self.d_z;
             (s, (s.abs().mul_add(self.d_z_err, z_err) / known + 2.0 * U * s.abs()) * ROUNDED)
         };
-        let z_err = e_net + o_err[2] + U * z_size;
         let ends = zs.map(|z| along(z, z_err));
         let s = [
             (ends[0].0 - ends[0].1).min(ends[1].0 - ends[1].1),
@@ -130,24 +163,32 @@ impl Line {
             [0, 1].map(|i| (-self.slope[i]).mul_add(z, p[self.axes[i]]))
         };
         let mut turns = [0_i8; 4];
-        for k in 0..4 {
-            let [a, b, c] = [(k + 3) % 4, k, (k + 1) % 4].map(|i| flat(&points[i]));
+        for k in 0..corners {
+            let [a, b, c] = [(k + corners - 1) % corners, k, (k + 1) % corners].map(|i| flat(&points[i]));
             let det = (c[0] - b[0]) * (a[1] - b[1]) - (c[1] - b[1]) * (a[0] - b[0]);
             let det = det * self.d_z;
             turns[k] = i8::from(det > 0.0) - i8::from(det < 0.0);
         }
-        let turn = if turns.iter().all(|t| *t == turns[0]) { turns[0] } else { 0 };
-        let plane = if turn == 0 { None } else { self.plane(points, (o, o_err), e_net) };
+        let turn = if turns[..corners].iter().all(|t| *t == turns[0]) { turns[0] } else { 0 };
+        let plane = if turn == 0 { None } else { self.plane(points, corners, (o, o_err), e_net) };
         Sight { f, e, s, plane, turn }
     }
 
-    /// Where the line passes between the planes along both diagonals of the first four points that
-    /// hold all points between them.
-    fn plane(&self, points: &[[f64; 3]], (o, o_err): ([f64; 3], [f64; 3]), e_net: f64) -> Option<[f64; 2]> {
+    /// Where the line passes between the planes along both diagonals of the corners, or along three of
+    /// them, that hold all points between them.
+    fn plane(
+        &self,
+        points: &[[f64; 3]],
+        corners: usize,
+        (o, o_err): ([f64; 3], [f64; 3]),
+        e_net: f64,
+    ) -> Option<[f64; 2]> {
         let turned = |p: &[f64; 3]| self.axes.map(|axis| p[axis]);
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| turned(&points[k]));
-        let less = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| p[k] - q[k]);
-        let (p, q) = (less(c, a), less(d, b));
+        let less = |i: usize, k: usize| {
+            let (p, q) = (turned(&points[i]), turned(&points[k]));
+            [0, 1, 2].map(|k| p[k] - q[k])
+        };
+        let (p, q) = if corners == 3 { (less(1, 0), less(2, 0)) } else { (less(2, 0), less(3, 1)) };
         let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
         let most = n.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let n = n.map(|x| x / most);

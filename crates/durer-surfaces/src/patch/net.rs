@@ -38,7 +38,8 @@ impl FaceNet {
                 Self::Square(Net { size: net.size, points: net.points.iter().map(f).collect() })
             }
             Self::Triangle(net) => {
-                Self::Triangle(TriangleNet { side: net.side, points: net.points.iter().map(f).collect() })
+                let points = net.points.iter().map(f).collect();
+                Self::Triangle(TriangleNet { side: net.side, points, lost: net.lost })
             }
         }
     }
@@ -61,7 +62,7 @@ impl FaceNet {
     pub(super) fn lost(&self) -> f64 {
         match self {
             Self::Square(_) => durer_math::scale::pow2(-90),
-            Self::Triangle(net) => durer_math::scale::pow2(-97) * power(3.0, net.side - 1),
+            Self::Triangle(net) => net.lost * power(3.0, net.side - 1),
         }
     }
 }
@@ -142,6 +143,25 @@ impl Net {
         out
     }
 
+    /// Both halves along a parameter, by de Casteljau's algorithm: means of points, so that no error
+    /// grows.
+    pub(super) fn halves(&self, along: usize) -> [Self; 2] {
+        let [nu, nv] = self.size;
+        let (mut low, mut high) = (self.clone(), self.clone());
+        let (n, step, lines, next) = if along == 0 { (nu, 1, nv, nu) } else { (nv, nu, nu, 1) };
+        for line in 0..lines {
+            let at = |k: usize| line * next + k * step;
+            for level in 1..n {
+                for k in 0..n - level {
+                    let (a, b) = (high.points[at(k)], high.points[at(k + 1)]);
+                    high.points[at(k)] = [0, 1, 2, 3].map(|c| (a[c] + b[c]).scale2(-1));
+                }
+                low.points[at(level)] = high.points[at(0)];
+            }
+        }
+        [low, high]
+    }
+
     /// Each point relative to `base`, rounded: coordinates less `base` times the weight.
     #[inline(always)]
     pub(super) fn relative(&self, base: [f64; 3]) -> Vec<Homogeneous<f64>> {
@@ -156,6 +176,39 @@ pub(super) fn relative(points: &[Homogeneous<Dd>], base: [f64; 3]) -> Vec<Homoge
         [of(0), of(1), of(2), p[3].to_f64()]
     };
     points.iter().map(about).collect()
+}
+
+/// The net of the same patch over a box that is wider by `margin` on all sides, and how many roundings
+/// of the largest point it is off by at most.
+///
+/// Each of the `4 (n - 1)` levels rounds three times, and enlarges points and their errors by less than
+/// `(1 + 2 margin)`.
+pub(super) fn widened(
+    points: &[Homogeneous<f64>],
+    [nu, nv]: [usize; 2],
+    margin: f64,
+) -> (Vec<Homogeneous<f64>>, f64) {
+    let mut out = points.to_vec();
+    for (n, step, lines, next) in [(nu, 1, nv, nu), (nv, nu, nu, 1)] {
+        for line in 0..lines {
+            let at = |k: usize| line * next + k * step;
+            for level in 1..n {
+                for k in 0..n - level {
+                    let (a, b) = (out[at(k)], out[at(k + 1)]);
+                    out[at(k)] = [0, 1, 2, 3].map(|c| (-margin).mul_add(b[c] - a[c], a[c]));
+                }
+            }
+            let t = (1.0 + 2.0 * margin) / (1.0 + margin);
+            for level in 1..n {
+                for k in (level..n).rev() {
+                    let (a, b) = (out[at(k - 1)], out[at(k)]);
+                    out[at(k)] = [0, 1, 2, 3].map(|c| t.mul_add(b[c] - a[c], a[c]));
+                }
+            }
+        }
+    }
+    let levels = 2 * (nu + nv - 2);
+    (out, 3.0 * levels as f64 * power(1.0 + 2.0 * margin, levels))
 }
 
 /// The greatest magnitude of the differences of a net, `along` times in each direction; times the

@@ -118,21 +118,32 @@ impl Face {
     /// Parameters moved into the patch.
     #[inline(always)]
     fn clamped(&self, uv: [f64; 2]) -> [f64; 2] {
-        let [u, v] = uv.map(|x| x.clamp(0.0, 1.0));
-        if self.is_triangle && u + v > 1.0 {
-            let over = 0.5 * (u + v - 1.0);
-            return [(u - over).max(0.0), (v - over).max(0.0)];
-        }
-        [u, v]
+        clamped(self.is_triangle, uv)
     }
 
     /// Whether a crossing may be on an edge.
     #[inline(always)]
     fn has_on_edge(&self, f: &Found) -> bool {
-        (0..2).any(|k| f.uv[k] <= f.radius[k] || !self.is_triangle && f.uv[k] + f.radius[k] >= 1.0)
-            || f.on_trim
-            || self.is_triangle && f.uv[0] + f.uv[1] + f.radius[0] + f.radius[1] >= 1.0
+        f.on_trim || is_on_edge(self.is_triangle, f)
     }
+}
+
+/// Parameters moved into a triangle or a square.
+#[inline(always)]
+pub(super) fn clamped(is_triangle: bool, uv: [f64; 2]) -> [f64; 2] {
+    let [u, v] = uv.map(|x| x.clamp(0.0, 1.0));
+    if is_triangle && u + v > 1.0 {
+        let over = 0.5 * (u + v - 1.0);
+        return [(u - over).max(0.0), (v - over).max(0.0)];
+    }
+    [u, v]
+}
+
+/// Whether a crossing may be on an edge of a triangle or a square.
+#[inline(always)]
+pub(super) fn is_on_edge(is_triangle: bool, f: &Found) -> bool {
+    (0..2).any(|k| f.uv[k] <= f.radius[k] || !is_triangle && f.uv[k] + f.radius[k] >= 1.0)
+        || is_triangle && f.uv[0] + f.uv[1] + f.radius[0] + f.radius[1] >= 1.0
 }
 
 impl Shell {

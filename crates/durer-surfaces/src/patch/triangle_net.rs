@@ -11,6 +11,7 @@
 //! "Blossoms are polar forms", *Computer Aided Geometric Design* 6 (1989) 323-358; G. Farin,
 //! "Triangular Bernstein-Bezier patches", *Computer Aided Geometric Design* 3 (1986) 83-127).
 
+use super::cell::power;
 use super::net::{Homogeneous, Net};
 use durer_math::Dd;
 
@@ -20,6 +21,8 @@ pub(crate) struct TriangleNet {
     /// How many points a side has: the degree and one.
     pub(crate) side: usize,
     pub(crate) points: Vec<Homogeneous<Dd>>,
+    /// How far the points are off, as a part of the size of all.
+    pub(crate) lost: f64,
 }
 
 /// How many points a net has whose sides have this many.
@@ -31,6 +34,57 @@ pub(super) fn count(side: usize) -> usize {
 #[inline(always)]
 fn place(side: usize, i: usize, j: usize) -> usize {
     j * (2 * side + 1 - j) / 2 + i
+}
+
+/// The control points of the lower left half of a patch over a square that is of degree n in both
+/// parameters together, without weights; and how many roundings of the largest point they are off by.
+///
+/// With `D_pq` the blossom at the corner (`n - p - q` times) and along `u` (`p` times) and `v` (`q`
+/// times): `P_ij = sum (i over p) (j over q) D_pq`, and by the differences of the square's points
+/// `D_pq = n! (n - p - q)! / ((n - p)! (n - q)!) Delta_u^p Delta_v^q`. Differences and sums enlarge errors
+/// by two each, and there are at most n of either.
+pub(super) fn lower_half(square: &[Homogeneous<f64>], side: usize) -> (Vec<[f64; 3]>, f64) {
+    let n = side - 1;
+    let mut d: Vec<[f64; 3]> = square.iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let at = |i: usize, j: usize| j * side + i;
+    let change = |d: &mut [[f64; 3]], to: usize, from: usize, sign: f64| {
+        for c in 0..3 {
+            d[to][c] += sign * d[from][c];
+        }
+    };
+    for level in 1..=n {
+        for other in 0..side {
+            for k in (level..side).rev() {
+                change(&mut d, at(k, other), at(k - 1, other), -1.0);
+            }
+        }
+        for other in 0..side {
+            for k in (level..side).rev() {
+                change(&mut d, at(other, k), at(other, k - 1), -1.0);
+            }
+        }
+    }
+    for q in 0..side {
+        for p in 0..side - q {
+            let by = (0..p).fold(1.0, |b, k| b * (n - k) as f64 / (n - q - k) as f64);
+            d[at(p, q)] = d[at(p, q)].map(|x| x * by);
+        }
+    }
+    // Sums undo the differences of the points that are left.
+    for level in (1..=n).rev() {
+        for j in 0..side {
+            for i in level..side - j {
+                change(&mut d, at(i, j), at(i - 1, j), 1.0);
+            }
+        }
+        for i in 0..side {
+            for j in level..side - i {
+                change(&mut d, at(i, j), at(i, j - 1), 1.0);
+            }
+        }
+    }
+    let points = (0..side).flat_map(|j| (0..side - j).map(move |i| at(i, j))).map(|k| d[k]).collect();
+    (points, 4.0 * n as f64 * power(8.0, n))
 }
 
 /// De Casteljau's algorithm, one step: a net with one point less along each side.
@@ -77,7 +131,7 @@ impl TriangleNet {
                 first = step(&first, n - k + 1, o);
             }
         }
-        Self { side, points }
+        Self { side, points, lost: self.lost }
     }
 
     /// The same polynomials over the square whose lower left half the triangle is, as a net of a

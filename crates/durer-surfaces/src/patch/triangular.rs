@@ -29,6 +29,8 @@ const MOST_SIDE: usize = 9;
 /// Weights may differ by this factor: the patch is also computed a little beyond its long side, where
 /// weights fall off the faster the more they differ.
 const WEIGHTS: f64 = 256.0;
+/// Points in units, and what is computed with them, are off by this part of the size of all.
+pub(super) const LOST: f64 = durer_math::scale::pow2(-97);
 
 /// A Bezier patch over a triangle, of degree 1 to 8, with or without weights. An open surface; its
 /// stored normal is `S_u x S_v`. A root's tag is `(u, v)`, with `u, v >= 0` and `u + v <= 1`.
@@ -85,7 +87,7 @@ impl TriangularPatch {
         }
         check_points(points, WEIGHTS)?;
         let net = Net::new([points.len(), 1], points);
-        let face = FaceNet::Triangle(TriangleNet { side, points: net.points });
+        let face = FaceNet::Triangle(TriangleNet { side, points: net.points, lost: LOST });
         let shell = Shell::new(&[face]).ok_or(PatchError::Nothing)?;
         Ok(Self { side, points: points.into(), corners: TRIANGLE, shell: Arc::new(shell) })
     }
@@ -127,11 +129,17 @@ impl Patches for TriangularPatch {
         if self.corners == TRIANGLE {
             return;
         }
-        let ([u, v], [a, b, c]) = (point.uv, self.corners);
-        let [[p, q], [r, s]] = [0, 1].map(|k| [b[k] - a[k], c[k] - a[k]]);
-        point.uv = [a[0] + (u * p + v * q), a[1] + (u * r + v * s)];
-        point.change_parameters([[p, q], [r, s]], need);
+        map_uv(&self.corners, point, need);
     }
+}
+
+/// Texture coordinates that are given at the corners (0, 0), (1, 0) and (0, 1) and linear between
+/// them, and the slopes by them of a surface with these slopes by the parameters.
+pub(super) fn map_uv(corners: &[[f64; 2]; 3], point: &mut SurfacePoint, need: Need) {
+    let ([u, v], [a, b, c]) = (point.uv, corners);
+    let [[p, q], [r, s]] = [0, 1].map(|k| [b[k] - a[k], c[k] - a[k]]);
+    point.uv = [a[0] + (u * p + v * q), a[1] + (u * r + v * s)];
+    point.change_parameters([[p, q], [r, s]], need);
 }
 
 surface_of_patches!(TriangularPatch);

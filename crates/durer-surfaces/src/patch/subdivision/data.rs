@@ -11,6 +11,9 @@ pub enum Scheme {
     /// (1978) 350-355.
     #[default]
     CatmullClark,
+    /// Triangles; the limit is a quartic box spline almost everywhere. C. Loop, *Smooth subdivision
+    /// surfaces based on triangles*, master's thesis, University of Utah 1987.
+    Loop,
 }
 
 /// The rule at vertices that only one face has.
@@ -77,6 +80,14 @@ pub enum SubdivisionError {
         /// The face.
         face: usize,
         /// How many it has.
+        len: usize,
+    },
+    /// A face is no triangle, as Loop's rules need it.
+    #[error("subdivision: face {face} has {len} vertices, Loop's rules are for triangles")]
+    NotTriangle {
+        /// The face.
+        face: usize,
+        /// How many vertices it has.
         len: usize,
     },
     /// A face names a vertex that is not there.
@@ -220,6 +231,9 @@ impl SubdivisionData {
         for (face, corners) in self.faces.iter().enumerate() {
             if corners.len() < 3 {
                 return Err(Error::FaceSize { face, len: corners.len() });
+            }
+            if self.scheme == Scheme::Loop && corners.len() != 3 {
+                return Err(Error::NotTriangle { face, len: corners.len() });
             }
             if let Some(&vertex) = corners.iter().find(|v| **v as usize >= count) {
                 return Err(Error::Index { face, vertex, count });

@@ -3,27 +3,31 @@
 //!
 //! A face next to an extraordinary vertex is refined to three patches and a smaller corner, again and
 //! again. Some steps are taken ahead; what is left is refined for each ray that meets the convex hull
-//! of its points, by the same sums, so that no hit depends on what was taken ahead. When the hull is as
-//! small as the errors of the ray, it is one candidate, and joined with what is found beside it.
+//! of its points, by the same sums, so that no hit depends on what was taken ahead. What a corner was
+//! refined to stays for the rays that follow, up to a limit. When the hull is as small as the errors of
+//! the ray, it is one candidate, and joined with what is found beside it.
 //!
 //! Coordinates are held in double-double, from the control points on, which are exact. A step
 //! makes at most 35 roundings of `2^-106` of the size of the surface, and no step makes the errors of
 //! the one before larger, because its weights are not negative and have the sum 1. After 120 steps
 //! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
 
-use super::plan::{Plan, Plans, Wheel, bezier, refine};
+use super::Scheme;
+use super::plan::{Plan, Plans, Wheel, net, refine};
 use super::topology::{Adjacency, Topology};
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
 use crate::patch::cell::{Cell, cells};
 use crate::patch::exact::Exact;
 use crate::patch::line::{Found, Line, View};
-use crate::patch::net::{FaceNet, Net};
-use crate::patch::shell::{Face, ROOM, is_held, joined, overlap, root};
+use crate::patch::net::{FaceNet, relative};
+use crate::patch::shell::{Face, ROOM, clamped, is_held, is_on_edge, joined, overlap, root};
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The error of points besides their rounding to f64, in units.
 pub(super) const E_POINTS: f64 = durer_math::scale::pow2(-90);
@@ -33,27 +37,76 @@ const NOISE: f64 = 8.0;
 pub(super) const MOST_STEPS: u32 = 120;
 /// Steps that are taken ahead at most.
 pub(super) const AHEAD: u32 = 6;
+/// The same for triangles, whose patches take more time to make.
+const AHEAD_TRIANGLES: u32 = 3;
 /// Fewer steps are taken ahead if there would be more patches than this.
 const MANY: usize = 1 << 18;
+/// So many steps of corners are kept, of about 16 kB each.
+const MOST_KEPT: usize = 4096;
 
-/// A part of a quadrilateral in its parameters.
+/// A part of a face in its parameters: a square, or a triangle with this corner. In the middle of a
+/// triangle parameters run against those of the whole, and the width is negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
-    pub(super) quad: u32,
+    pub(super) face: u32,
+    pub(super) is_triangle: bool,
     pub(super) from: [f64; 2],
     pub(super) width: f64,
 }
 
 impl Place {
-    pub(super) fn quarter(&self, k: usize) -> Self {
-        let width = 0.5 * self.width;
-        let [a, b] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][k];
-        let from = [a * width + self.from[0], b * width + self.from[1]];
-        Self { quad: self.quad, from, width }
+    pub(super) fn of(face: u32, is_triangle: bool) -> Self {
+        Self { face, is_triangle, from: [0.0; 2], width: 1.0 }
     }
 
+    /// The parameters of a corner; the fourth one of a triangle is that of the square.
+    fn corner(&self, k: usize) -> [f64; 2] {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        if self.is_triangle { triangle[k] } else { square[k] }
+    }
+
+    pub(super) fn quarter(&self, k: usize) -> Self {
+        let width = 0.5 * self.width;
+        let [a, b] = self.corner(k);
+        let from = [a * width + self.from[0], b * width + self.from[1]];
+        let is_turned = self.is_triangle && k == 3;
+        Self { from, width: if is_turned { -width } else { width }, ..*self }
+    }
+
+    /// The quarter that parameters of the face are in.
+    pub(super) fn quarter_at(&self, uv: [f64; 2]) -> usize {
+        let [u, v] = [0, 1].map(|k| uv[k] - self.from[k]);
+        let half = 0.5 * self.width;
+        if self.is_triangle {
+            let [u, v, half] = if half < 0.0 { [-u, -v, -half] } else { [u, v, half] };
+            return if u >= half {
+                1
+            } else if v >= half {
+                2
+            } else if u + v <= half {
+                0
+            } else {
+                3
+            };
+        }
+        match (u >= half, v >= half) {
+            (false, false) => 0,
+            (true, false) => 1,
+            (true, true) => 2,
+            (false, true) => 3,
+        }
+    }
+
+    /// Parameters of the face as parameters of the part.
+    pub(super) fn inner(&self, uv: [f64; 2]) -> [f64; 2] {
+        clamped(self.is_triangle, [0, 1].map(|k| (uv[k] - self.from[k]) / self.width))
+    }
+
+    /// Parameters of the part as parameters of the face.
     fn outer(&self, uv: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| uv[k].clamp(0.0, 1.0).mul_add(self.width, self.from[k]))
+        let uv = clamped(self.is_triangle, uv);
+        [0, 1].map(|k| uv[k].mul_add(self.width, self.from[k]))
     }
 }
 
@@ -67,15 +120,8 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// Its points relative to the first, which is rounded.
-    pub(super) fn relative(&self) -> ([f64; 3], Vec<[f64; 3]>) {
-        let base = self.points[0].map(Dd::to_f64);
-        let less = |p: &[Dd; 3]| [0, 1, 2].map(|c| (p[c] - Dd::from(base[c])).to_f64());
-        (base, self.points.iter().map(less).collect())
-    }
-
     /// The four faces of the next step; `None` if it is a patch.
-    pub(super) fn quarters(&self, plans: &[Plan]) -> Option<[Node; 4]> {
+    fn quarters(&self, plans: &[Plan]) -> Option<[Node; 4]> {
         let Plan::Split { stencils, quarters, .. } = &plans[self.plan as usize] else { return None };
         let finer = refine(stencils, &self.points);
         Some([0, 1, 2, 3].map(|k: usize| Node {
@@ -87,18 +133,15 @@ impl Node {
     }
 
     /// The patch that it is, if it is one.
-    pub(super) fn net(&self, plans: &[Plan]) -> Option<Net> {
-        match &plans[self.plan as usize] {
-            Plan::Regular(net) => Some(bezier(net, &self.points)),
-            Plan::Split { .. } => None,
-        }
+    pub(super) fn net(&self, plans: &[Plan]) -> Option<FaceNet> {
+        net(&plans[self.plan as usize], &self.points)
     }
 
     /// The smooth vertices at its corners, those where patches do not end first.
     pub(super) fn wheel<'a>(&self, plans: &'a [Plan]) -> Option<&'a Wheel> {
         let Plan::Split { wheels, .. } = &plans[self.plan as usize] else { return None };
-        let wheels = || wheels.iter().flatten();
-        wheels().find(|w| w.ends.len() != 4).or_else(|| wheels().next())
+        let regular = if self.place.is_triangle { 6 } else { 4 };
+        wheels.iter().find(|w| w.ends.len() != regular).or_else(|| wheels.first())
     }
 }
 
@@ -111,14 +154,17 @@ pub(super) struct Leaf {
 }
 
 impl Leaf {
-    pub(super) fn new(place: Place, net: &Net) -> Self {
-        let base = [0, 1, 2].map(|c| net.points[5][c].to_f64());
+    pub(super) fn new(place: Place, net: &FaceNet) -> Self {
+        let base = [0, 1, 2].map(|c| net.points()[5][c].to_f64());
+        let square = net.part([0.0; 2], [1.0; 2]);
+        let points = square.relative(base);
+        let largest = points.iter().flatten().fold(1.0, |m: f64, x| m.max(x.abs()));
         let face = Face {
-            size: net.size,
-            net: net.relative(base).into(),
-            is_triangle: false,
+            size: square.size,
+            net: points.into(),
+            is_triangle: net.is_triangle(),
             lightest: 1.0,
-            largest: 1.0,
+            largest,
             trim: None,
             is_turned: false,
         };
@@ -126,7 +172,65 @@ impl Leaf {
     }
 }
 
-/// What a quadrilateral or a part of it is.
+/// A patch that a corner was refined to.
+#[derive(Debug)]
+pub(super) struct Patch {
+    pub(super) leaf: Leaf,
+    /// Its control points relative to the leaf's base.
+    hull: Box<[[f64; 3]]>,
+    net: FaceNet,
+    /// Made when a ray meets the hull.
+    cells: OnceLock<Box<[Cell]>>,
+}
+
+/// A face that is no patch, and what it is refined to, once a ray has come near.
+#[derive(Debug)]
+pub(super) struct Tail {
+    pub(super) node: Node,
+    /// The first of its points, rounded, and all of them relative to that.
+    base: [f64; 3],
+    pub(super) relative: Box<[[f64; 3]]>,
+    finer: OnceLock<Box<Finer>>,
+}
+
+/// The four faces of a step.
+pub(super) type Finer = [Refined; 4];
+
+#[derive(Debug)]
+pub(super) enum Refined {
+    Patch(Box<Patch>),
+    Tail(Tail),
+}
+
+impl Tail {
+    fn new(node: Node) -> Self {
+        let base = node.points[0].map(Dd::to_f64);
+        let less = |p: &[Dd; 3]| [0, 1, 2].map(|c| (p[c] - Dd::from(base[c])).to_f64());
+        let relative = node.points.iter().map(less).collect();
+        Self { node, base, relative, finer: OnceLock::new() }
+    }
+}
+
+impl Patch {
+    fn cells(&self) -> &[Cell] {
+        self.cells.get_or_init(|| {
+            let mut all = Vec::new();
+            cells(&self.net, false, 0, &mut all);
+            all.into_iter().map(|(cell, _)| cell).collect()
+        })
+    }
+}
+
+impl Refined {
+    fn new(node: Node, plans: &[Plan]) -> Self {
+        let Some(net) = node.net(plans) else { return Self::Tail(Tail::new(node)) };
+        let leaf = Leaf::new(node.place, &net);
+        let hull = relative(net.points(), leaf.base).iter().map(|&[x, y, z, _]| [x, y, z]).collect();
+        Self::Patch(Box::new(Patch { leaf, hull, net, cells: OnceLock::new() }))
+    }
+}
+
+/// What a face or a part of it is.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Spot {
     Leaf(u32),
@@ -143,7 +247,7 @@ enum Item {
 }
 
 /// The limit surface in units about its centre.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Limit {
     pub(super) bounds: Aabb,
     pub(super) centre: Point3,
@@ -152,14 +256,17 @@ pub(super) struct Limit {
     pub(super) reach: f64,
     pub(super) plans: Box<[Plan]>,
     pub(super) leaves: Box<[Leaf]>,
-    pub(super) tails: Box<[Node]>,
-    /// First one for each quadrilateral.
+    pub(super) tails: Box<[Tail]>,
+    /// How many steps of them are kept.
+    kept: AtomicUsize,
+    /// First one for each face.
     pub(super) spots: Box<[Spot]>,
     /// The control points of the leaves in double-double.
     nets: Box<[FaceNet]>,
     cells: Box<[Cell]>,
     items: Box<[Item]>,
     tree: Tree,
+    pub(super) is_triangles: bool,
     /// -1 if normals point into the solid.
     pub(super) outward: i8,
 }
@@ -178,7 +285,6 @@ struct Lists {
     nodes: Vec<u32>,
     found: Vec<Found>,
     extra: Vec<Extra>,
-    cells: Vec<(Cell, Aabb)>,
 }
 
 thread_local! {
@@ -199,8 +305,8 @@ fn hull(points: &[[Dd; 3]]) -> Aabb {
 }
 
 impl Limit {
-    /// The limit surface of quadrilaterals, without those that are holes; `None` only for a mesh that
-    /// is not valid.
+    /// The limit surface of quadrilaterals, or of triangles, without those that are holes; `None` only
+    /// for a mesh that is not valid.
     pub(super) fn new(
         mesh: &Topology,
         points: &[[Dd; 3]],
@@ -211,31 +317,32 @@ impl Limit {
         let (centre, scale, reach) = frame;
         let adjacency = Adjacency::new(mesh);
         let mut plans = Plans::default();
+        let is_triangles = mesh.scheme == Scheme::Loop;
         let mut roots = Vec::new();
-        for quad in 0..mesh.faces.len() {
-            if is_hole[quad] {
+        for face in 0..mesh.faces.len() {
+            if is_hole[face] {
                 continue;
             }
-            let part = adjacency.around(quad)?;
-            let place = Place { quad: quad as u32, from: [0.0; 2], width: 1.0 };
+            let part = adjacency.around(face)?;
+            let place = Place::of(face as u32, is_triangles);
             let points = part.points.iter().map(|p| points[*p as usize]).collect();
             roots.push(Node { plan: plans.of(&part.mesh)?, place, depth: 0, points });
         }
         let plans = plans.all;
         let corners =
             roots.iter().filter(|node| matches!(plans[node.plan as usize], Plan::Split { .. })).count();
+        let most = if is_triangles { most.min(AHEAD_TRIANGLES) } else { most };
         let ahead = (1..=most).rev().find(|n| 4 * corners * *n as usize <= MANY).unwrap_or(1);
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut nets, mut tails) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = Vec::new();
         let mut open: Vec<(usize, Node)> =
-            roots.into_iter().map(|node| (node.place.quad as usize, node)).collect();
+            roots.into_iter().map(|node| (node.place.face as usize, node)).collect();
         open.reverse();
         while let Some((spot, node)) = open.pop() {
             if let Some(net) = node.net(&plans) {
                 spots[spot] = Spot::Leaf(leaves.len() as u32);
                 let leaf = Leaf::new(node.place, &net);
-                let net = FaceNet::Square(net);
                 cells(&net, false, leaves.len() as u32, &mut all);
                 nets.push(net);
                 leaves.push(leaf);
@@ -248,12 +355,12 @@ impl Limit {
                 open.extend(quarters.into_iter().enumerate().rev().map(|(k, node)| (first + k, node)));
             } else {
                 spots[spot] = Spot::Tail(tails.len() as u32);
-                tails.push(node);
+                tails.push(Tail::new(node));
             }
         }
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
         let mut boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
-        boxes.extend(tails.iter().map(|node| hull(&node.points).expanded(room)));
+        boxes.extend(tails.iter().map(|tail| hull(&tail.node.points).expanded(room)));
         let (tree, order) = Tree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)).expanded(room);
         let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
@@ -270,11 +377,13 @@ impl Limit {
             plans: plans.into(),
             leaves: leaves.into(),
             tails: tails.into(),
+            kept: AtomicUsize::new(0),
             spots: spots.into(),
             nets: nets.into(),
             cells: all.into_iter().map(|(cell, _)| cell).collect(),
             items,
             tree,
+            is_triangles,
             outward: 1,
         })
     }
@@ -297,10 +406,10 @@ impl Limit {
                 let place = self.place(crossing, &lists.extra);
                 let mut crossing = *crossing;
                 crossing.uv = place.outer(crossing.uv);
-                crossing.face = place.quad;
+                crossing.face = place.face;
                 crossing.sign *= self.outward;
                 crossing.turn *= self.outward;
-                if let Some(root) = root(&at, &crossing, crossing.uv.map(|x| x.clamp(0.0, 1.0))) {
+                if let Some(root) = root(&at, &crossing, clamped(self.is_triangles, crossing.uv)) {
                     roots.push(root);
                 }
             }
@@ -347,57 +456,74 @@ impl Limit {
         }
     }
 
+    /// What a corner is refined to: kept with it, or in `spare` if too much is kept. `None` if it is a
+    /// patch.
+    pub(super) fn finer<'a>(&self, tail: &'a Tail, spare: &'a mut Option<Box<Finer>>) -> Option<&'a Finer> {
+        if let Some(finer) = tail.finer.get() {
+            return Some(finer);
+        }
+        let quarters = tail.node.quarters(&self.plans)?;
+        let finer = Box::new(quarters.map(|node| Refined::new(node, &self.plans)));
+        if self.kept.fetch_add(1, Ordering::Relaxed) < MOST_KEPT {
+            return Some(tail.finer.get_or_init(|| finer));
+        }
+        Some(spare.insert(finer))
+    }
+
     /// What a line meets of a corner.
-    #[inline(never)]
-    fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Node, window: [f64; 2], lists: &mut Lists) {
-        let mut open = vec![tail.clone()];
-        while let Some(node) = open.pop() {
-            let (base, points) = node.relative();
-            let sight = line.sight(base, &points, E_POINTS);
-            let is_clear = (0..2).any(|i| sight.f[i][0] > sight.e[i] || sight.f[i][1] < -sight.e[i]);
-            if is_clear || sight.s[1] < window[0] || sight.s[0] > window[1] {
-                continue;
-            }
-            let number = (self.leaves.len() + lists.extra.len()) as u32;
-            if let Some(net) = node.net(&self.plans) {
-                // The hull of its own net is much smaller than that of the points about it.
-                let own: Vec<[f64; 3]> = net.relative(base).iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-                let sight = line.sight(base, &own, E_POINTS);
-                if (0..2).any(|i| sight.f[i][0] > sight.e[i] || sight.f[i][1] < -sight.e[i]) {
-                    continue;
+    fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Tail, window: [f64; 2], lists: &mut Lists) {
+        let corners = if self.is_triangles { 3 } else { 4 };
+        let sight = line.sight(tail.base, &tail.relative, corners, E_POINTS);
+        if sight.is_clear() || sight.s[1] < window[0] || sight.s[0] > window[1] {
+            return;
+        }
+        let is_noise = (0..2).all(|i| sight.f[i][0].abs().max(sight.f[i][1].abs()) <= NOISE * sight.e[i]);
+        let mut spare = None;
+        if !is_noise
+            && tail.node.depth < MOST_STEPS
+            && let Some(finer) = self.finer(tail, &mut spare)
+        {
+            for part in finer {
+                match part {
+                    Refined::Patch(patch) => self.meet_patch(at, line, patch, lists),
+                    Refined::Tail(tail) => self.unfold(at, line, tail, window, lists),
                 }
-                lists.extra.push(Extra { place: node.place, room: 0.0 });
-                lists.cells.clear();
-                let net = FaceNet::Square(net);
-                cells(&net, false, number, &mut lists.cells);
-                let exact = Exact::new(at, core::slice::from_ref(&net), line.axes).numbered_from(number);
-                for (cell, _) in &lists.cells {
-                    meet_cell(line, cell, &exact, &mut lists.found);
-                }
-                continue;
             }
-            let is_noise = (0..2).all(|i| sight.f[i][0].abs().max(sight.f[i][1].abs()) <= NOISE * sight.e[i]);
-            if !is_noise
-                && node.depth < MOST_STEPS
-                && let Some(quarters) = node.quarters(&self.plans)
-            {
-                open.extend(quarters.into_iter().rev());
-                continue;
-            }
-            // All of it is as near as the ray is known.
-            let [low, high] = sight.plane.unwrap_or(sight.s);
-            lists.extra.push(Extra { place: node.place, room: sight.s[1] - sight.s[0] });
-            lists.found.push(Found {
-                face: number,
-                uv: [0.5; 2],
-                radius: [0.5; 2],
-                alone: [0.0; 2],
-                s: 0.5 * (low + high),
-                s_err: 0.5 * (high - low) * (1.0 + 4.0 * U) + U * (low.abs() + high.abs()),
-                sign: 0,
-                turn: sight.turn,
-                on_trim: false,
-            });
+            return;
+        }
+        // All of it is as near as the ray is known; the vertex stands for it.
+        let (place, wheel) = (tail.node.place, tail.node.wheel(&self.plans));
+        let middle = [if self.is_triangles { 1.0 / 3.0 } else { 0.5 }; 2];
+        let [low, high] = sight.plane.unwrap_or(sight.s);
+        let face = (self.leaves.len() + lists.extra.len()) as u32;
+        lists.extra.push(Extra { place, room: sight.s[1] - sight.s[0] });
+        lists.found.push(Found {
+            face,
+            uv: wheel.map_or(middle, |wheel| place.corner(wheel.centre as usize)),
+            radius: [1.0; 2],
+            alone: [0.0; 2],
+            s: 0.5 * (low + high),
+            s_err: 0.5 * (high - low) * (1.0 + 4.0 * U) + U * (low.abs() + high.abs()),
+            sign: 0,
+            turn: sight.turn,
+            on_trim: false,
+        });
+    }
+
+    /// What a line meets of a patch of a corner.
+    fn meet_patch(&self, at: &CentredRay<'_>, line: &Line, patch: &Patch, lists: &mut Lists) {
+        // The hull of its own net is much smaller than that of the points about it.
+        if line.misses(patch.leaf.base, &patch.hull, E_POINTS) {
+            return;
+        }
+        let (face, first) = ((self.leaves.len() + lists.extra.len()) as u32, lists.found.len());
+        lists.extra.push(Extra { place: patch.leaf.place, room: 0.0 });
+        let exact = Exact::new(at, core::slice::from_ref(&patch.net), line.axes);
+        for cell in patch.cells() {
+            meet_cell(line, cell, &exact, &mut lists.found);
+        }
+        for found in &mut lists.found[first..] {
+            found.face = face;
         }
     }
 
@@ -416,7 +542,7 @@ impl Limit {
             return is_held(a, b) || is_held(b, a) || overlap(a, b);
         }
         let rooms = [self.room(a, extra), self.room(b, extra)];
-        let on_edge = |f: &Found| (0..2).any(|k| f.uv[k] <= f.radius[k] || f.uv[k] + f.radius[k] >= 1.0);
+        let on_edge = |f: &Found| is_on_edge(self.is_triangles, f);
         // One of them may be in the other's patch as well; that other one may surely be in its own.
         let may_be = rooms.iter().any(|r| *r > 0.0) || on_edge(a) || on_edge(b);
         let is_alike = a.turn == b.turn || a.turn == 0 || b.turn == 0;
@@ -432,7 +558,7 @@ impl Limit {
         // Proven ones first; an order that does not depend on when patches were made.
         let by_place = |f: &Found| {
             let place = self.place(f, extra);
-            (place.quad, place.from.map(f64::to_bits), f.uv.map(f64::to_bits))
+            (place.face, place.from.map(f64::to_bits), f.uv.map(f64::to_bits))
         };
         found.sort_by(|a, b| {
             let first = (a.sign == 0).cmp(&(b.sign == 0)).then((a.turn == 0).cmp(&(b.turn == 0)));

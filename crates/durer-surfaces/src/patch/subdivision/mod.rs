@@ -9,9 +9,11 @@
 //!    ●──────●            ●──●──●╱
 //! ```
 //!
-//! Where all vertices of a face have four edges, the limit is a bicubic B-spline patch, met as a
-//! [`BezierPatch`](crate::BezierPatch) is. A face at another vertex is refined to three patches and a
-//! smaller corner; the corner is refined on for the rays that come near, down to the size of their
+//! Polygons follow the rules of Catmull and Clark (`topology.rs`), triangles those or Loop's
+//! (`triangles.rs`). Where all vertices of a quadrilateral have four edges, the limit is a bicubic
+//! B-spline patch, met as a [`BezierPatch`](crate::BezierPatch) is; where those of a triangle have six,
+//! a quartic one, met as a [`TriangularPatch`](crate::TriangularPatch) is. A face at another vertex is
+//! refined to three patches and a smaller corner; the corner is refined on for the rays that come near, down to the size of their
 //! rounding errors (`limit.rs`). At the very vertex the limit and its normal are known in closed form
 //! (`plan.rs`). Edges that are sharp for some steps only are refined until they are smooth.
 //!
@@ -28,8 +30,9 @@ mod limit;
 mod plan;
 mod point;
 mod topology;
+mod triangles;
 
-use super::map_uv;
+use super::{map_uv, triangular};
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::roots::quadratic::Quadratic;
@@ -45,11 +48,12 @@ use topology::{Adjacency, Topology, apply, edge_of};
 
 pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError};
 
-/// The limit surface of a control mesh under Catmull and Clark's subdivision.
+/// The limit surface of a control mesh under Catmull and Clark's subdivision, or under Loop's.
 ///
 /// A mesh without boundary is a solid: what the surface encloses. Otherwise it is an open surface,
-/// whose stored normal is that of the faces as they are wound. A root's face is a quadrilateral and
-/// its tag `(u, v)` in that: a face with four vertices is one, if all faces of the mesh have four;
+/// whose stored normal is that of the faces as they are wound. Under Loop's rules a root's face is a
+/// triangle of the mesh, and its tag `(u, v)` in that, with `u + v <= 1`. Otherwise it is a
+/// quadrilateral, and its tag `(u, v)` in that: a face with four vertices is one, if all faces of the mesh have four;
 /// otherwise each face is as many as it has vertices ([`SubdivisionSurface::control_face`]).
 ///
 /// ```
@@ -79,9 +83,10 @@ pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError};
 pub struct SubdivisionSurface {
     data: Arc<SubdivisionData>,
     limit: Arc<Limit>,
-    /// The face of the control mesh of each quadrilateral.
+    /// The face of the control mesh of each quadrilateral or triangle.
     origins: Arc<[u32]>,
-    /// Texture coordinates at the corners of each quadrilateral; empty if they are its parameters.
+    /// Texture coordinates at the corners of each quadrilateral, of triangles with one more that is
+    /// not read; empty if they are its parameters.
     uv: Arc<[[[f64; 2]; 4]]>,
     is_closed: bool,
 }
@@ -93,7 +98,12 @@ fn sharpness_of(given: f64) -> f64 {
 
 /// The control mesh without coordinates.
 fn topology(data: &SubdivisionData) -> Topology {
-    let mut mesh = Topology { points: data.vertices.len(), faces: data.faces.clone(), ..Topology::default() };
+    let mut mesh = Topology {
+        scheme: data.scheme,
+        points: data.vertices.len(),
+        faces: data.faces.clone(),
+        ..Topology::default()
+    };
     // Of two values for one edge the sharper counts.
     for &([a, b], sharpness) in &data.creases {
         let entry = mesh.creases.entry(edge_of(a, b)).or_insert(0.0);
@@ -155,7 +165,11 @@ impl SubdivisionSurface {
         let corner_uv = |face: usize, k: usize| data.uv[data.uv_faces[face][k] as usize];
         let has_uv = !data.uv_faces.is_empty();
         let mut uv: Vec<[[f64; 2]; 4]> = vec![];
-        if mesh.faces.iter().all(|face| face.len() == 4) {
+        if data.scheme == Scheme::Loop {
+            if has_uv {
+                uv = (0..mesh.faces.len()).map(|f| [0, 1, 2, 0].map(|k| corner_uv(f, k))).collect();
+            }
+        } else if mesh.faces.iter().all(|face| face.len() == 4) {
             if has_uv {
                 uv = (0..mesh.faces.len()).map(|f| [0, 1, 2, 3].map(|k| corner_uv(f, k))).collect();
             }
@@ -197,7 +211,7 @@ impl SubdivisionSurface {
         self.is_closed
     }
 
-    /// The face of the control mesh of which a quadrilateral is a part.
+    /// The face of the control mesh that a root's face is a part of.
     pub fn control_face(&self, face: u32) -> Option<u32> {
         self.origins.get(face as usize).copied()
     }
@@ -258,8 +272,8 @@ impl Surface for SubdivisionSurface {
         }
     }
 
-    /// Texture coordinates: those given at the corners of faces, bilinear between them; without any
-    /// the parameters of the quadrilateral.
+    /// Texture coordinates: those given at the corners of faces, bilinear between them and linear in
+    /// triangles; without any the parameters of the face.
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let mut point = Isa::detect().run(
@@ -267,7 +281,13 @@ impl Surface for SubdivisionSurface {
             || self.limit.point(ray, root),
         );
         if let Some(corners) = self.uv.get(root.face as usize) {
-            map_uv(corners, &mut point, need);
+            match self.data.scheme {
+                Scheme::CatmullClark => map_uv(corners, &mut point, need),
+                Scheme::Loop => {
+                    let [a, b, c, _] = *corners;
+                    triangular::map_uv(&[a, b, c], &mut point, need);
+                }
+            }
         }
         point
     }

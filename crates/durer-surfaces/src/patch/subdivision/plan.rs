@@ -1,7 +1,7 @@
-//! Plans: what becomes of a quadrilateral and what is round it, step by step, without coordinates.
+//! Plans: what becomes of a face and what is round it, step by step, without coordinates.
 //!
-//! A face whose own vertices all follow the rules of B-splines is a bicubic patch. Any other is
-//! refined to four. Faces with equal surroundings have one plan, and deep down the corner at an
+//! A quadrilateral whose own vertices all follow the rules of B-splines is a bicubic patch, and a
+//! triangle whose vertices follow those of box splines a quartic one. Any other is refined to four. Faces with equal surroundings have one plan, and deep down the corner at an
 //! extraordinary vertex has the plan of the corner before, so that there are few plans, and a step is
 //! a fixed list of sums (W. Brainerd, T. Foley, M. Kraemer, H. Moreton, M. Niessner, "Efficient GPU
 //! rendering of subdivision surfaces using adaptive quadtrees", *SIGGRAPH* 2016). That a boundary or
@@ -9,8 +9,10 @@
 //! theoretical development for the computer generation and display of piecewise polynomial surfaces",
 //! *IEEE PAMI* 2 (1980) 35-46, end conditions.
 
+use super::Scheme;
 use super::topology::{Adjacency, Fan, Rule, Stencil, Topology, apply};
-use crate::patch::net::{Homogeneous, Net};
+use super::triangles;
+use crate::patch::net::{FaceNet, Homogeneous, Net};
 use durer_math::Dd;
 use durer_math::elementary;
 use std::collections::HashMap;
@@ -22,8 +24,8 @@ pub(super) struct Quarter {
     pub(super) points: Box<[u32]>,
 }
 
-/// A smooth vertex inside: its own point, the ends of its edges and the points across its faces,
-/// counter-clockwise.
+/// A smooth vertex inside: its own point, the ends of its edges and the points across its faces, of
+/// triangles none, counter-clockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Wheel {
     pub(super) centre: u32,
@@ -37,12 +39,15 @@ pub(super) enum Plan {
     /// A bicubic B-spline patch: the points of its net, row by row from v = -1 on; without those
     /// that are mirrored.
     Regular(Box<[Option<u32>; 16]>),
-    /// Four faces: at (0, 0), (1, 0), (1, 1) and (0, 1).
+    /// A quartic box spline over a triangle.
+    Triangle(Box<triangles::Patch>),
+    /// Four faces: at (0, 0), (1, 0), (1, 1) and (0, 1); of a triangle at (0, 0), (1, 0), (0, 1) and
+    /// in the middle.
     Split {
         stencils: Box<[Stencil]>,
         quarters: Box<[Quarter; 4]>,
-        /// Of each corner, if it is smooth and not on a boundary.
-        wheels: Box<[Option<Wheel>; 4]>,
+        /// The corners that are smooth and not on a boundary.
+        wheels: Box<[Wheel]>,
     },
 }
 
@@ -130,7 +135,7 @@ fn regular(mesh: &Topology, fans: &[Fan]) -> Option<[Option<u32>; 16]> {
 }
 
 /// How many faces are between the two sharp edges of a crease, on the side of a face.
-fn side_of_crease(fan: &Fan, face: usize) -> usize {
+pub(super) fn side_of_crease(fan: &Fan, face: usize) -> usize {
     let n = fan.faces.len();
     let Some(own) = fan.faces.iter().position(|f| *f == face) else { return 0 };
     let is_sharp = |end: usize| fan.sharpness.get(end % fan.ends.len()).is_some_and(|s| *s > 0.0);
@@ -157,21 +162,28 @@ impl Plans {
             return Some(plan);
         }
         let adjacency = Adjacency::new(mesh);
-        let fans: Vec<Fan> = (0..4).map(|v| adjacency.fan(v, 0)).collect::<Option<_>>()?;
+        let sides = mesh.faces.first()?.len();
+        let fans: Vec<Fan> = (0..sides as u32).map(|v| adjacency.fan(v, 0)).collect::<Option<_>>()?;
         let number = self.all.len() as u32;
         self.known.insert(key, number);
-        if let Some(net) = regular(mesh, &fans) {
-            self.all.push(Plan::Regular(Box::new(net)));
+        let patch = match mesh.scheme {
+            Scheme::CatmullClark => regular(mesh, &fans).map(|net| Plan::Regular(Box::new(net))),
+            Scheme::Loop => triangles::regular(mesh, &fans).map(|net| Plan::Triangle(Box::new(net))),
+        };
+        if let Some(patch) = patch {
+            self.all.push(patch);
             return Some(number);
         }
         // A place, for corners whose plan is this one again.
         self.all.push(Plan::Regular(Box::new([None; 16])));
-        let finer = adjacency.refined(|v| v < 4);
-        let wheels = [0, 1, 2, 3].map(|k: usize| {
-            let fan = &fans[k];
+        let finer = adjacency.refined(|v| (v as usize) < sides);
+        let wheel = |(k, fan): (usize, &Fan)| {
             let is_smooth = fan.is_final() && fan.rule() == Rule::Smooth && !fan.is_open();
             if !is_smooth || fan.sharpness.iter().any(|s| *s > 0.0) {
                 return None;
+            }
+            if mesh.scheme == Scheme::Loop {
+                return Some(Wheel { centre: k as u32, ends: fan.ends.clone().into(), across: [].into() });
             }
             let across = fan.faces.iter().map(|face| {
                 let corners = &mesh.faces[*face];
@@ -180,19 +192,20 @@ impl Plans {
             });
             let across: Option<Vec<u32>> = across.collect();
             Some(Wheel { centre: k as u32, ends: fan.ends.clone().into(), across: across?.into() })
-        });
+        };
+        let wheels = fans.iter().enumerate().filter_map(wheel).collect();
         let mut quarters = Vec::with_capacity(4);
         let within = Adjacency::new(&finer.mesh);
         for k in 0..4 {
             let face = finer.origins.iter().position(|origin| *origin == (0, k))?;
-            // Each begins at its own corner; its parameters are to run along those of the whole.
-            let part = within.around_from(face, (4 - k) % 4)?;
+            // Each begins at its own corner; its parameters are to run along those of the whole, and in
+            // the middle of a triangle against them.
+            let part = within.around_from(face, if k < sides { (sides - k) % sides } else { 0 })?;
             let plan = self.of(&part.mesh)?;
             quarters.push(Quarter { plan, points: part.points.into() });
         }
         let quarters = Box::new(<[Quarter; 4]>::try_from(quarters).ok()?);
-        self.all[number as usize] =
-            Plan::Split { stencils: finer.stencils.into(), quarters, wheels: Box::new(wheels) };
+        self.all[number as usize] = Plan::Split { stencils: finer.stencils.into(), quarters, wheels };
         Some(number)
     }
 }
@@ -202,12 +215,21 @@ pub(super) fn refine(stencils: &[Stencil], points: &[[Dd; 3]]) -> Vec<[Dd; 3]> {
     stencils.iter().map(|stencil| apply(stencil, points)).collect()
 }
 
-/// The Bezier net of a regular face.
+/// The Bezier net of a face that has one.
+pub(super) fn net(plan: &Plan, points: &[[Dd; 3]]) -> Option<FaceNet> {
+    match plan {
+        Plan::Regular(net) => Some(FaceNet::Square(bezier(net, points))),
+        Plan::Triangle(net) => triangles::bezier(net, points).map(FaceNet::Triangle),
+        Plan::Split { .. } => None,
+    }
+}
+
+/// The Bezier net of a regular quadrilateral.
 ///
 /// A point beyond a boundary or a crease is the mirror image of that within: `2 a - b`. A B-spline's
 /// pieces have the Bezier points `(a + 4 b + c) / 6`, `(2 b + c) / 3`, `(b + 2 c) / 3`,
 /// `(b + 4 c + d) / 6`.
-pub(super) fn bezier(net: &[Option<u32>; 16], points: &[[Dd; 3]]) -> Net {
+fn bezier(net: &[Option<u32>; 16], points: &[[Dd; 3]]) -> Net {
     let mut p = [[[Dd::ZERO; 3]; 4]; 4];
     let has = |i: usize, j: usize| net[j * 4 + i].is_some();
     for j in 0..4 {
@@ -258,6 +280,9 @@ pub(super) fn bezier(net: &[Option<u32>; 16], points: &[[Dd; 3]]) -> Net {
 /// surfaces at arbitrary parameter values", *SIGGRAPH* 1998.
 pub(super) fn limit(wheel: &Wheel, points: &[[Dd; 3]]) -> [[Dd; 3]; 3] {
     let n = wheel.ends.len();
+    if wheel.across.is_empty() {
+        return triangles::limit(wheel, points);
+    }
     let (ends, across) = (&wheel.ends, &wheel.across);
     let weights = |own: f64, end: f64, across_weight: f64| {
         let mut all = vec![(wheel.centre, Dd::from(own))];

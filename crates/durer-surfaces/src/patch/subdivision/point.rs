@@ -1,6 +1,6 @@
 //! Points of the limit surface, and on which side of a closed one a point is.
 
-use super::limit::{E_POINTS, Limit, MOST_STEPS, Node, Place, Spot};
+use super::limit::{E_POINTS, Limit, MOST_STEPS, Place, Refined, Spot, Tail};
 use super::plan::limit;
 use crate::patch::cell::sums;
 use crate::patch::point::{Jet, located};
@@ -24,26 +24,15 @@ fn vector(p: [Dd; 3]) -> Vec3 {
     Vec3::from(p.map(Dd::to_f64))
 }
 
-fn quarter_of(place: &Place, uv: [f64; 2]) -> usize {
-    let [right, upper] = [0, 1].map(|k| uv[k] >= place.from[k] + 0.5 * place.width);
-    match (right, upper) {
-        (false, false) => 0,
-        (true, false) => 1,
-        (true, true) => 2,
-        (false, true) => 3,
-    }
-}
-
 impl Limit {
     /// The point of a root.
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
-        let (quad, uv) = (root.face, root.tag);
-        let mut place = Place { quad, from: [0.0; 2], width: 1.0 };
-        let Some(mut spot) = self.spots.get(quad as usize).copied() else {
+        let mut place = Place::of(root.face, self.is_triangles);
+        let Some(mut spot) = self.spots.get(root.face as usize).copied() else {
             return SurfacePoint::unknown(self.centre);
         };
         while let Spot::Split(first) = spot {
-            let k = quarter_of(&place, uv);
+            let k = place.quarter_at(root.tag);
             (spot, place) = (self.spots[first as usize + k], place.quarter(k));
         }
         match spot {
@@ -55,34 +44,36 @@ impl Limit {
 
     fn on_leaf(&self, ray: &LocalRay<'_>, root: &Root, leaf: &Leaf) -> SurfacePoint {
         let (face, place) = (&leaf.face, &leaf.place);
-        let uv = [0, 1].map(|k| ((root.tag[k] - place.from[k]) / place.width).clamp(0.0, 1.0));
+        let uv = place.inner(root.tag);
         let jet = face.jet(uv);
         let normal = face.normal(uv, &jet).map(|(n, near)| (n * f64::from(self.outward), near));
         let jet = jet.moved(Vec3::from(leaf.base), place.width);
         // The evaluation, and the sum with the base.
-        let eta = (2.0 * sums(face.size) + 10.0) * U + E_POINTS;
+        let eta = (2.0 * sums(face.size) + 10.0) * U * face.largest + E_POINTS;
         located((self.centre, self.scale), (ray, root), &jet, normal, eta)
     }
 
-    fn in_corner(&self, ray: &LocalRay<'_>, root: &Root, tail: &Node) -> SurfacePoint {
-        let mut node = tail.clone();
-        loop {
-            if let Some(net) = node.net(&self.plans) {
-                return self.on_leaf(ray, root, &Leaf::new(node.place, &net));
-            }
-            let (_, points) = node.relative();
-            let reach = points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-            let next =
-                if reach > POINT && node.depth < MOST_STEPS { node.quarters(&self.plans) } else { None };
-            let Some(quarters) = next else { break };
-            let k = quarter_of(&node.place, root.tag);
-            let [a, b, c, d] = quarters;
-            node = [a, b, c, d].into_iter().nth(k).unwrap_or(node);
+    fn in_corner(&self, ray: &LocalRay<'_>, root: &Root, tail: &Tail) -> SurfacePoint {
+        let node = &tail.node;
+        let reach = tail.relative.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let mut spare = None;
+        if reach > POINT
+            && node.depth < MOST_STEPS
+            && let Some(finer) = self.finer(tail, &mut spare)
+        {
+            return match &finer[node.place.quarter_at(root.tag)] {
+                Refined::Patch(patch) => self.on_leaf(ray, root, &patch.leaf),
+                Refined::Tail(tail) => self.in_corner(ray, root, tail),
+            };
         }
         // All of it is one point.
         let p = &node.points;
         let less = |a: [Dd; 3], b: [Dd; 3]| vector([0, 1, 2].map(|c| a[c] - b[c]));
-        let (pu, pv) = (less(p[1], p[0]) + less(p[2], p[3]), less(p[3], p[0]) + less(p[2], p[1]));
+        let (pu, pv) = if self.is_triangles {
+            (less(p[1], p[0]) * 2.0, less(p[2], p[0]) * 2.0)
+        } else {
+            (less(p[1], p[0]) + less(p[2], p[3]), less(p[3], p[0]) + less(p[2], p[1]))
+        };
         let by = 0.5 / node.place.width;
         let (y, [tu, tv]) = match node.wheel(&self.plans) {
             Some(wheel) => {

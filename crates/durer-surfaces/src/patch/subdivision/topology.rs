@@ -10,6 +10,8 @@
 //!                  on a crease: 3/4 v + 1/8 (e + e');  at a corner: v
 //! ```
 //!
+//! These are the rules of polygons; those of triangles are in `triangles.rs`.
+//!
 //! E. Catmull, J. Clark, *Computer-Aided Design* 10 (1978) 350-355; creases and boundaries: T. DeRose,
 //! M. Kass, T. Truong, "Subdivision surfaces in character animation", *SIGGRAPH* 1998. A sharpness
 //! falls by 1 with each step; between 0 and 1 the sharp and the smooth rule are mixed. Where a
@@ -20,6 +22,8 @@
 //! The limit over a face depends on the points of the faces that touch it, and on the sharpness of
 //! edges at its own vertices: [`Topology::around`] cuts that out.
 
+use super::Scheme;
+use super::triangles::{NEAR, OPPOSITE, neighbour_weight};
 use durer_math::Dd;
 use std::collections::{BTreeMap, HashMap};
 
@@ -29,6 +33,7 @@ pub(super) type Stencil = Vec<(u32, Dd)>;
 /// Faces with sharp edges and vertices.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Topology {
+    pub(super) scheme: Scheme,
     /// The number of points.
     pub(super) points: usize,
     pub(super) faces: Vec<Vec<u32>>,
@@ -179,8 +184,8 @@ impl<'a> Adjacency<'a> {
         Some(fan)
     }
 
-    /// The part of the mesh on which the limit over a quadrilateral depends. The first face of the
-    /// part is that one, its vertices are the first four.
+    /// The part of the mesh on which the limit over a face depends. The first face of the part is that
+    /// one, its vertices are the first ones.
     pub(super) fn around(&self, face: usize) -> Option<Part> {
         self.around_from(face, 0)
     }
@@ -191,7 +196,11 @@ impl<'a> Adjacency<'a> {
         points.rotate_left(first);
         let own = points.clone();
         let mut faces = vec![face];
-        let mut mesh = Topology { faces: vec![(0..points.len() as u32).collect()], ..Topology::default() };
+        let mut mesh = Topology {
+            scheme: self.mesh.scheme,
+            faces: vec![(0..points.len() as u32).collect()],
+            ..Topology::default()
+        };
         let number = |points: &mut Vec<u32>, v: u32| {
             points.iter().position(|p| *p == v).unwrap_or_else(|| {
                 points.push(v);
@@ -244,12 +253,12 @@ fn finish(sum: BTreeMap<u32, Dd>) -> Stencil {
     sum.into_iter().filter(|(_, w)| *w != Dd::ZERO).collect()
 }
 
-/// A finer mesh and where its points come from. Each face has become one quadrilateral for each of
-/// its corners, in their order; that of a corner begins there.
+/// A finer mesh and where its points come from. Each face has become one for each of its corners, in
+/// their order, which begins there; of a triangle the one in the middle follows.
 pub(super) struct Finer {
     pub(super) mesh: Topology,
     pub(super) stencils: Vec<Stencil>,
-    /// For each finer face, the face and the corner it is of.
+    /// For each finer face, the face and the corner it is of; in the middle of a triangle that is 3.
     pub(super) origins: Vec<(usize, usize)>,
 }
 
@@ -266,7 +275,14 @@ impl Adjacency<'_> {
         let (sharp, smooth) = (Dd::from(sharp), Dd::difference(1.0, sharp));
         let ends = [(a, Dd::ONE), (b, Dd::ONE)];
         add(&mut sum, &ends, sharp.scale2(-1));
-        if smooth != Dd::ZERO {
+        if smooth != Dd::ZERO && self.mesh.scheme == Scheme::Loop {
+            add(&mut sum, &ends, smooth * NEAR);
+            for [a, b] in [[a, b], [b, a]] {
+                if let Some((_, [opposite, _])) = self.across(a, b) {
+                    add(&mut sum, &[(opposite, Dd::ONE)], smooth * OPPOSITE);
+                }
+            }
+        } else if smooth != Dd::ZERO {
             add(&mut sum, &ends, smooth.scale2(-2));
             for edge in [[a, b], [b, a]] {
                 if let Some((face, _)) = self.left.get(&edge) {
@@ -294,6 +310,13 @@ impl Adjacency<'_> {
                     if *sharpness > 0.0 {
                         add(sum, &[(*end, Dd::ONE)], by.scale2(-3));
                     }
+                }
+            }
+            Rule::Smooth if self.mesh.scheme == Scheme::Loop => {
+                let weight = neighbour_weight(fan.ends.len());
+                add(sum, &own, by * (Dd::ONE - weight * whole(fan.ends.len())));
+                for end in &fan.ends {
+                    add(sum, &[(*end, Dd::ONE)], by * weight);
                 }
             }
             Rule::Smooth => {
@@ -330,51 +353,93 @@ impl Adjacency<'_> {
     }
 
     /// The finer mesh: of the corners of faces that `wanted` says, all but those whose fan is not
-    /// known.
+    /// known, and the middles of triangles with two such corners.
     pub(super) fn refined(&self, wanted: impl Fn(u32) -> bool) -> Finer {
-        let mut finer = Finer { mesh: Topology::default(), stencils: vec![], origins: vec![] };
-        let mut vertices: HashMap<u32, u32> = HashMap::new();
-        let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
-        let number = |stencils: &mut Vec<Stencil>, stencil: Stencil| {
-            stencils.push(stencil);
-            stencils.len() as u32 - 1
+        let is_loop = self.mesh.scheme == Scheme::Loop;
+        let mut step = Step {
+            coarse: self,
+            mesh: Topology { scheme: self.mesh.scheme, ..Topology::default() },
+            stencils: vec![],
+            vertices: HashMap::new(),
+            edges: HashMap::new(),
         };
+        let mut origins = vec![];
         for (face, corners) in self.mesh.faces.iter().enumerate() {
             if !corners.iter().any(|v| wanted(*v)) {
                 continue;
             }
-            let middle = number(&mut finer.stencils, self.face_stencil(face));
+            let middle = if is_loop { None } else { Some(step.point(self.face_stencil(face))) };
             let n = corners.len();
+            let mut within = Vec::with_capacity(n);
             for (k, &v) in corners.iter().enumerate() {
                 if !wanted(v) {
                     continue;
                 }
                 let Some(fan) = self.fan(v, face) else { continue };
-                let own = *vertices
-                    .entry(v)
-                    .or_insert_with(|| number(&mut finer.stencils, self.vertex_stencil(v, &fan)));
-                let corner = less_sharp(fan.corner);
-                if corner > 0.0 {
-                    finer.mesh.corners.insert(own, corner);
+                let own = step.vertex(v, &fan);
+                let next = step.edge(v, own, corners[(k + 1) % n]);
+                let before = step.edge(v, own, corners[(k + n - 1) % n]);
+                step.mesh.faces.push([own, next].into_iter().chain(middle).chain([before]).collect());
+                origins.push((face, k));
+                within.push(k);
+            }
+            if is_loop && within.len() >= 2 {
+                let edge = |k: usize| step.edges.get(&edge_of(corners[k], corners[(k + 1) % n])).copied();
+                if let (Some(a), Some(b), Some(c)) = (edge(1), edge(2), edge(0)) {
+                    step.mesh.faces.push(vec![a, b, c]);
+                    origins.push((face, 3));
                 }
-                let mut side = |other: u32| {
-                    let point = *edges
-                        .entry(edge_of(v, other))
-                        .or_insert_with(|| number(&mut finer.stencils, self.edge_stencil(v, other)));
-                    let is_inner = self.left.contains_key(&[v, other]) && self.left.contains_key(&[other, v]);
-                    let sharpness = less_sharp(self.sharpness(v, other));
-                    if is_inner && sharpness > 0.0 {
-                        finer.mesh.creases.insert(edge_of(own, point), sharpness);
-                    }
-                    point
-                };
-                let (next, before) = (side(corners[(k + 1) % n]), side(corners[(k + n - 1) % n]));
-                finer.mesh.faces.push(vec![own, next, middle, before]);
-                finer.origins.push((face, k));
             }
         }
-        finer.mesh.points = finer.stencils.len();
-        finer
+        let Step { mut mesh, stencils, .. } = step;
+        mesh.points = stencils.len();
+        Finer { mesh, stencils, origins }
+    }
+}
+
+/// A finer mesh on the way.
+struct Step<'a> {
+    coarse: &'a Adjacency<'a>,
+    mesh: Topology,
+    stencils: Vec<Stencil>,
+    /// The points of vertices and edges.
+    vertices: HashMap<u32, u32>,
+    edges: HashMap<[u32; 2], u32>,
+}
+
+impl Step<'_> {
+    fn point(&mut self, stencil: Stencil) -> u32 {
+        self.stencils.push(stencil);
+        self.stencils.len() as u32 - 1
+    }
+
+    fn vertex(&mut self, v: u32, fan: &Fan) -> u32 {
+        let own = match self.vertices.get(&v) {
+            Some(&own) => own,
+            None => self.point(self.coarse.vertex_stencil(v, fan)),
+        };
+        self.vertices.insert(v, own);
+        let corner = less_sharp(fan.corner);
+        if corner > 0.0 {
+            self.mesh.corners.insert(own, corner);
+        }
+        own
+    }
+
+    /// The point of the edge from a vertex, whose point is `own`, to another one.
+    fn edge(&mut self, v: u32, own: u32, other: u32) -> u32 {
+        let coarse = self.coarse;
+        let point = match self.edges.get(&edge_of(v, other)) {
+            Some(&point) => point,
+            None => self.point(coarse.edge_stencil(v, other)),
+        };
+        self.edges.insert(edge_of(v, other), point);
+        let is_inner = coarse.left.contains_key(&[v, other]) && coarse.left.contains_key(&[other, v]);
+        let sharpness = less_sharp(coarse.sharpness(v, other));
+        if is_inner && sharpness > 0.0 {
+            self.mesh.creases.insert(edge_of(own, point), sharpness);
+        }
+        point
     }
 }
 

@@ -6,6 +6,7 @@ use crate::laws::{TestRng, all_roots, drawn, report};
 use crate::patch::net::{FaceNet, Net};
 use crate::patch::shell::Shell;
 use crate::patch::triangle_net::TriangleNet;
+use crate::patch::triangular::LOST;
 use crate::patch::{PatchError, TriangularPatch};
 use crate::{All, LocalRay, RootKind, Sink};
 use durer_math::{Point3, Ray, U, Vec3};
@@ -94,7 +95,7 @@ fn the_net_over_the_square_is_that_of_the_triangle() {
     for side in 2..=9 {
         let points = net(&mut dice, side, true);
         let given = Net::new([points.len(), 1], &points).points;
-        let triangle = TriangleNet { side, points: given.clone() };
+        let triangle = TriangleNet { side, points: given.clone(), lost: 0.0 };
         let square = triangle.over_square();
         for i in 0..side {
             assert_eq!(square.points[i][0].to_f64(), given[i][0].to_f64());
@@ -170,7 +171,7 @@ fn rays_from_inside_a_closed_body_leave_it_once() {
             .iter()
             .map(|points| {
                 let points = Net::new([points.len(), 1], points).points;
-                FaceNet::Triangle(TriangleNet { side: degree + 1, points })
+                FaceNet::Triangle(TriangleNet { side: degree + 1, points, lost: LOST })
             })
             .collect();
         let shell = Shell::new(&nets).unwrap();

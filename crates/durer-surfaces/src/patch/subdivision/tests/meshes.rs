@@ -1,6 +1,6 @@
 //! Control meshes.
 
-use super::super::{Boundary, SubdivisionData};
+use super::super::{Boundary, Scheme, SubdivisionData};
 use crate::laws::TestRng;
 use durer_math::{Point3, Vec3};
 
@@ -111,7 +111,36 @@ pub(super) fn grid(
     SubdivisionData { vertices, faces, boundary, ..SubdivisionData::default() }
 }
 
-fn creased(
+/// The same mesh in triangles from the first vertex of each face, under Loop's rules.
+pub(super) fn triangulated(mut data: SubdivisionData) -> SubdivisionData {
+    let fan =
+        |face: &Vec<u32>| (2..face.len()).map(|k| vec![face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
+    data.faces = data.faces.iter().flat_map(fan).collect();
+    data.scheme = Scheme::Loop;
+    data
+}
+
+/// A torus of triangles, six round each vertex.
+pub(super) fn torus(n: usize, m: usize) -> SubdivisionData {
+    let turn = |k: usize, n: usize| {
+        durer_math::elementary::sin_cos(2.0 * core::f64::consts::PI * k as f64 / n as f64)
+    };
+    let mut vertices = Vec::new();
+    let mut faces = Vec::new();
+    for i in 0..n {
+        for j in 0..m {
+            let ((sa, ca), (sb, cb)) = (turn(i, n), turn(j, m));
+            let r = 1.0 + 0.45 * cb;
+            vertices.push(Point3::new(r * ca, r * sa, 0.45 * sb));
+            let at = |a: usize, b: usize| ((i + a) % n * m + (j + b) % m) as u32;
+            faces.push(vec![at(0, 0), at(1, 0), at(1, 1)]);
+            faces.push(vec![at(0, 0), at(1, 1), at(0, 1)]);
+        }
+    }
+    SubdivisionData { scheme: Scheme::Loop, vertices, faces, ..SubdivisionData::default() }
+}
+
+pub(super) fn creased(
     mut data: SubdivisionData,
     creases: &[(u32, u32, f64)],
     corners: &[(u32, f64)],
@@ -142,8 +171,24 @@ pub(super) fn closed_meshes() -> Vec<(String, SubdivisionData)> {
     let edges: Vec<_> =
         (0..8_u32).flat_map(|a| [1, 2, 4].map(|b| (a, a ^ b, 10.0))).filter(|(a, b, _)| a < b).collect();
     all.push(("cube, all sharp".into(), creased(cube(), &edges, &[])));
-    all
+    let quads: Vec<_> = all.drain(..).collect();
+    // Triangles have no need of the many that take longest.
+    let kept = ["plate", "cube, sharp edge", "cube, sharp face", "cube, mixed", "cube, all sharp"];
+    for (name, data) in &quads {
+        if kept.contains(&name.as_str()) || name.starts_with("pyramid") || name == "prism 5" {
+            all.push((format!("{LOOP}{name}"), triangulated(data.clone())));
+        }
+    }
+    all.push((format!("{LOOP}torus"), torus(5, 4)));
+    let ring: Vec<_> = (0..5).map(|i| (4 * i, 4 * ((i + 1) % 5), 10.0)).collect();
+    all.push((format!("{LOOP}torus, sharp ring"), creased(torus(5, 4), &ring, &[])));
+    let ring: Vec<_> = ring.iter().map(|&(a, b, _)| (a, b, 1.75)).collect();
+    all.push((format!("{LOOP}torus, less sharp"), creased(torus(5, 4), &ring, &[(2, 10.0), (7, 1.5)])));
+    quads.into_iter().chain(all).collect()
 }
+
+/// How names of meshes under Loop's rules begin.
+const LOOP: &str = "loop: ";
 
 pub(super) fn all_meshes() -> Vec<(String, SubdivisionData)> {
     let mut all = closed_meshes();
@@ -162,14 +207,30 @@ pub(super) fn all_meshes() -> Vec<(String, SubdivisionData)> {
     open.faces.pop();
     open.boundary = Boundary::Smooth;
     all.push(("open prism".into(), open));
+    for smooth in [false, true] {
+        let name = format!("{LOOP}sheet{}", if smooth { ", smooth" } else { "" });
+        all.push((name, triangulated(grid(5, 5, smooth, wave))));
+    }
+    for smooth in [false, true] {
+        let mut one = triangulated(grid(2, 2, smooth, wave));
+        one.faces.truncate(1);
+        all.push((format!("{LOOP}one face{}", if smooth { ", smooth" } else { "" }), one));
+    }
+    let mut open = triangulated(cube());
+    open.faces.truncate(9);
+    all.push((format!("{LOOP}open cube"), open));
     all
 }
 
 /// A point inside.
 pub(super) fn inside(name: &str, dice: &mut TestRng) -> Vec3 {
-    if name == "plate" {
+    if name.ends_with("plate") {
         // Within the rim.
         return Vec3::new(dice.between(-1.0, 1.0), -0.333, 0.0) + dice.vector() * 0.02;
+    }
+    if name.contains("torus") {
+        // In the middle of the tube.
+        return Vec3::new(0.9, 0.0, 0.0) + dice.vector() * 0.03;
     }
     dice.vector() * 0.12
 }

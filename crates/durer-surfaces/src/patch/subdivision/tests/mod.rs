@@ -2,6 +2,7 @@
 
 mod meshes;
 mod naive;
+mod triangles;
 
 use super::*;
 use crate::laws::{all_roots, drawn, report};
@@ -19,7 +20,7 @@ fn limits(data: &SubdivisionData) -> Vec<Option<(Vec3, Vec3)>> {
     let mut naive = Naive::new(data);
     // The masks are those of quadrilaterals.
     let count = data.vertices.len();
-    if data.faces.iter().any(|f| f.len() != 4) {
+    if data.scheme == Scheme::CatmullClark && data.faces.iter().any(|f| f.len() != 4) {
         naive = naive.refined();
     }
     (0..count as u32).map(|v| naive.limit(v)).collect()
@@ -152,10 +153,18 @@ fn rate(data: &SubdivisionData) -> f64 {
         data.faces.iter().flat_map(|face| (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]));
     let sides: std::collections::HashSet<[u32; 2]> = count.collect();
     let is_closed = sides.iter().all(|&[a, b]| sides.contains(&[b, a]));
-    if is_plain && is_closed && most == 4 {
+    if data.scheme == Scheme::CatmullClark && is_plain && is_closed && most == 4 {
         return 1.2 * 0.25;
     }
-    let c = durer_math::elementary::sin_cos(2.0 * core::f64::consts::PI / f64::from(most)).1;
+    let cos = |k: f64| durer_math::elementary::cos(2.0 * core::f64::consts::PI * k / f64::from(most));
+    let c = cos(1.0);
+    if data.scheme == Scheme::Loop {
+        // Of smooth closed meshes the part in the tangent plane changes no distance; the next
+        // eigenvalues are those of two waves round the vertex and of none.
+        let slow = 0.375 + c / 4.0;
+        let next = (slow * slow).max(0.375 + cos(2.0) / 4.0).max(0.25);
+        return 1.2 * if is_plain && is_closed { next } else { slow.max(0.5) };
+    }
     1.2 * (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
 }
 
@@ -276,6 +285,10 @@ fn bad_meshes_are_named() {
     assert_eq!(with(&|d| d.faces[2][1] = 8), "subdivision: face 2 names vertex 8, there are 8 (0 to 7)");
     assert_eq!(with(&|d| d.faces[1][2] = d.faces[1][0]), "subdivision: face 1 has vertex 4 twice");
     assert_eq!(with(&|d| d.faces[0].truncate(2)), "subdivision: face 0 has 2 vertices, it needs 3 at least");
+    assert_eq!(
+        with(&|d| d.scheme = Scheme::Loop),
+        "subdivision: face 0 has 4 vertices, Loop's rules are for triangles"
+    );
     assert_eq!(
         with(&|d| d.vertices[3].y = f64::NAN),
         "subdivision: vertex 3 must be finite and less than 2^200, got <-1, NaN, 1>"

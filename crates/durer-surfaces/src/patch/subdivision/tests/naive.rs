@@ -1,11 +1,12 @@
 //! The rules once more, as textbooks write them: whole meshes in f64, without stencils or plans.
 
-use super::super::{Boundary, SubdivisionData, SubdivisionSurface};
+use super::super::{Boundary, Scheme, SubdivisionData, SubdivisionSurface};
 use crate::laws::all_roots;
 use durer_math::{Ray, Vec3};
 use std::collections::BTreeMap;
 
 pub(super) struct Naive {
+    scheme: Scheme,
     vertices: Vec<Vec3>,
     faces: Vec<Vec<u32>>,
     creases: BTreeMap<(u32, u32), f64>,
@@ -24,9 +25,15 @@ fn mix(a: Vec3, b: Vec3, t: f64) -> Vec3 {
     a * (1.0 - t) + b * t
 }
 
+fn loop_weight(n: f64) -> f64 {
+    let root = 0.375 + durer_math::elementary::cos(2.0 * core::f64::consts::PI / n) / 4.0;
+    (0.625 - root * root) / n
+}
+
 impl Naive {
     pub(super) fn new(data: &SubdivisionData) -> Self {
         let mut it = Self {
+            scheme: data.scheme,
             vertices: data.vertices.iter().map(|p| p.to_vec()).collect(),
             faces: data.faces.clone(),
             creases: data.creases.iter().map(|&([a, b], s)| (key(a, b), infinite(s))).collect(),
@@ -96,6 +103,10 @@ impl Naive {
                     (1, p * 0.75 + (ends[at[0]] + ends[at[1]]) * 0.125)
                 } else if faces_of[v].is_empty() {
                     (0, p)
+                } else if self.scheme == Scheme::Loop {
+                    let n = faces_of[v].len() as f64;
+                    let w = loop_weight(n);
+                    (0, p * (1.0 - n * w) + ends.iter().fold(Vec3::ZERO, |s, e| s + *e) * w)
                 } else {
                     // The classic form: (F + 2 R + (n - 3) P) / n.
                     let n = faces_of[v].len() as f64;
@@ -123,8 +134,15 @@ impl Naive {
             let (a, b) = (self.vertices[edge.0 as usize], self.vertices[edge.1 as usize]);
             let s = sharp(edge);
             let half = (a + b) * 0.5;
-            let smooth =
-                if faces.len() == 2 { (a + b + middles[faces[0]] + middles[faces[1]]) * 0.25 } else { half };
+            let smooth = if faces.len() == 2 && self.scheme == Scheme::Loop {
+                // Three times the middle of a triangle is the sum of its corners.
+                let both = (middles[faces[0]] + middles[faces[1]]) * 3.0;
+                (a + b) * 0.375 + (both - (a + b) * 2.0) * 0.125
+            } else if faces.len() == 2 {
+                (a + b + middles[faces[0]] + middles[faces[1]]) * 0.25
+            } else {
+                half
+            };
             let n = vertices.len() as u32;
             vertices.push(mix(smooth, half, s.min(1.0)));
             number.insert(*edge, n);
@@ -135,6 +153,12 @@ impl Naive {
         }
         let mut faces = Vec::new();
         for (f, face) in self.faces.iter().enumerate() {
+            if self.scheme == Scheme::Loop {
+                let [a, b, c] = [face[0], face[1], face[2]];
+                let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(a, b)| number[&key(a, b)]);
+                faces.extend([vec![a, ab, ca], vec![ab, b, bc], vec![ca, bc, c], vec![ab, bc, ca]]);
+                continue;
+            }
             let m = vertices.len() as u32;
             vertices.push(middles[f]);
             for k in 0..face.len() {
@@ -143,11 +167,27 @@ impl Naive {
                 faces.push(vec![v, number[&key(v, next)], m, number[&key(v, before)]]);
             }
         }
-        Self { vertices, faces, creases, corners }
+        Self { scheme: self.scheme, vertices, faces, creases, corners }
     }
 
-    /// The limit position and normal of a vertex with quadrilaterals round it, if it is smooth and not
-    /// on a boundary.
+    /// The limit of a vertex on a crease that is sharp for ever, or that is a corner for ever.
+    pub(super) fn sharp_limit(&self, v: u32) -> Option<Vec3> {
+        let corner = self.corners.get(&v).copied().unwrap_or(0.0);
+        let sharp: Vec<_> = self.creases.iter().filter(|(e, _)| e.0 == v || e.1 == v).collect();
+        let p = self.vertices[v as usize];
+        if corner.is_infinite() || corner == 0.0 && sharp.len() > 2 && sharp.iter().all(|s| s.1.is_infinite())
+        {
+            return Some(p);
+        }
+        if corner > 0.0 || sharp.len() != 2 || sharp.iter().any(|s| s.1.is_finite()) {
+            return None;
+        }
+        let ends = sharp.iter().map(|(e, _)| self.vertices[if e.0 == v { e.1 } else { e.0 } as usize]);
+        Some(ends.fold(p * (4.0 / 6.0), |s, e| s + e * (1.0 / 6.0)))
+    }
+
+    /// The limit position and normal of a vertex with quadrilaterals or triangles round it, if it is
+    /// smooth and not on a boundary.
     pub(super) fn limit(&self, v: u32) -> Option<(Vec3, Vec3)> {
         let mine: Vec<_> = self.faces.iter().filter(|f| f.contains(&v)).collect();
         if self.corners.contains_key(&v) || self.creases.keys().any(|e| e.0 == v || e.1 == v) {
@@ -158,10 +198,12 @@ impl Naive {
             .iter()
             .map(|f| {
                 let k = f.iter().position(|c| *c == v).unwrap();
-                [1, 2, 3].map(|i| f[(k + i) % 4])
+                // Of a triangle the next, none across, and the one before.
+                let steps = if f.len() == 3 { [1, 1, 2] } else { [1, 2, 3] };
+                steps.map(|i| f[(k + i) % f.len()])
             })
             .collect();
-        let mut round = vec![parts[0]];
+        let mut round = vec![*parts.first()?];
         while round.len() < parts.len() {
             let last = round[round.len() - 1][2];
             round.push(*parts.iter().find(|p| p[0] == last)?);
@@ -170,6 +212,18 @@ impl Naive {
         let p = self.vertices[v as usize];
         let at = |k: u32| self.vertices[k as usize];
         let sum = |i: usize| round.iter().fold(Vec3::ZERO, |s, r| s + at(r[i]));
+        if self.scheme == Scheme::Loop {
+            let w = 3.0 / (8.0 * loop_weight(n));
+            let limit = (p * w + sum(0)) * (1.0 / (w + n));
+            let wave = |shift: f64| {
+                round.iter().enumerate().fold(Vec3::ZERO, |s, (i, r)| {
+                    let angle = 2.0 * core::f64::consts::PI * (i as f64 - shift) / n;
+                    s + (at(r[0]) - p) * durer_math::elementary::cos(angle)
+                })
+            };
+            let normal = wave(0.0).cross(wave(1.0));
+            return Some((limit, normal * (1.0 / normal.length())));
+        }
         let limit = (p * (n * n) + sum(0) * 4.0 + sum(1)) * (1.0 / (n * (n + 5.0)));
         let cos = |k: f64| durer_math::elementary::cos(2.0 * core::f64::consts::PI * k / n);
         let a = 1.0 + cos(1.0) + cos(0.5) * (2.0 * (9.0 + cos(1.0))).sqrt();
