@@ -44,7 +44,7 @@ fn grid(data: &[u8]) -> Option<DensityGrid> {
     let size: [usize; 3] =
         std::array::from_fn(|i| usize::from(header[2 * i]) << 8 | usize::from(header[2 * i + 1]));
     let count = size[0].checked_mul(size[1])?.checked_mul(size[2])?;
-    let width = if count == 0 { 0 } else { numbers.len() / count };
+    let width = numbers.len().checked_div(count)?;
     if !matches!(width, 1 | 2 | 4) || width * count != numbers.len() {
         return None;
     }

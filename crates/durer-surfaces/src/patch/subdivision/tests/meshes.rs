@@ -171,7 +171,7 @@ pub(super) fn closed_meshes() -> Vec<(String, SubdivisionData)> {
     let edges: Vec<_> =
         (0..8_u32).flat_map(|a| [1, 2, 4].map(|b| (a, a ^ b, 10.0))).filter(|(a, b, _)| a < b).collect();
     all.push(("cube, all sharp".into(), creased(cube(), &edges, &[])));
-    let quads: Vec<_> = all.drain(..).collect();
+    let quads = std::mem::take(&mut all);
     // Triangles have no need of the many that take longest.
     let kept = ["plate", "cube, sharp edge", "cube, sharp face", "cube, mixed", "cube, all sharp"];
     for (name, data) in &quads {
