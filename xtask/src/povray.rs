@@ -2,11 +2,16 @@
 
 use crate::Outcome;
 use crate::command::Shot;
+use std::io::Read;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
 
 /// The message if it is not installed.
 pub(crate) const MISSING: &str = "not run: the program `povray` (POV-Ray 3.7; on Debian `apt-get install povray povray-includes`) is not installed";
+
+/// The longest time of a picture: that of the slowest scenes of its own distribution, several times.
+const MOST_TIME: Duration = Duration::from_secs(600);
 
 /// An installed POV-Ray.
 #[derive(Debug)]
@@ -56,7 +61,7 @@ impl Povray {
 
     fn run(&self, scene: &Path, picture: &Path, shot: Shot<'_>, library: &Path, more: &[String]) -> Outcome {
         assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
-        let output = Command::new("povray")
+        let mut child = Command::new("povray")
             .arg(format!("+I{}", scene.display()))
             .arg(format!("+O{}", picture.display()))
             .arg(format!("+L{}", library.display()))
@@ -64,14 +69,40 @@ impl Povray {
             .args(["+FN8", "-A", "-D", "-P", "Work_Threads=1"])
             .args(more)
             .stdin(Stdio::null())
-            .output()
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
             .map_err(|e| format!("povray: {e}"))?;
-        if output.status.success() {
+        let stderr = child.stderr.take();
+        let said = std::thread::spawn(move || {
+            let mut said = Vec::new();
+            stderr.map(|mut pipe| pipe.read_to_end(&mut said));
+            String::from_utf8_lossy(&said).into_owned()
+        });
+        let status = wait(&mut child).map_err(|e| format!("povray: {}: {e}", scene.display()))?;
+        let said = said.join().unwrap_or_default();
+        if status.success() {
             return Ok(());
         }
-        let said = String::from_utf8_lossy(&output.stderr);
         let error = said.find("Error").map_or(&*said, |at| &said[at..]);
-        Err(format!("povray: {}: {}\n{error}", scene.display(), output.status))
+        Err(format!("povray: {}: {status}\n{error}", scene.display()))
+    }
+}
+
+/// Waits for a program to end. POV-Ray has no limits of its own: an endless loop in a scene takes
+/// all memory.
+fn wait(child: &mut Child) -> Outcome<ExitStatus> {
+    let start = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().map_err(|e| e.to_string())? {
+            return Ok(status);
+        }
+        if start.elapsed() > MOST_TIME {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(format!("no end after {} s", MOST_TIME.as_secs()));
+        }
+        std::thread::sleep(Duration::from_millis(5));
     }
 }
 
