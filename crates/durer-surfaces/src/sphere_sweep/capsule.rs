@@ -61,7 +61,8 @@ struct CapsuleLine<'a> {
 
 impl Capsule {
     /// The sweep from one ball to another of the same size, about `centre` in units of `2^scale`;
-    /// `None` for other balls, and where they have one centre.
+    /// `None` for other balls, and where they have one centre. Radii of different signs are of
+    /// different sizes between the two.
     pub(super) fn new([one, other]: &[[f64; 4]; 2], centre: [f64; 3], scale: i32) -> Option<Self> {
         let exact = EFloat::<f64>::exact;
         let relative =
@@ -69,7 +70,7 @@ impl Capsule {
         let base = relative(one, centre);
         let axis = relative(other, [one[0], one[1], one[2]]);
         let (aa, rr) = (dot(&axis, &axis), exact(one[3]).scale2(-scale).square());
-        (one[3].abs() == other[3].abs() && is_positive(aa) && is_positive(rr)).then_some(Self {
+        (one[3] == other[3] && is_positive(aa) && is_positive(rr)).then_some(Self {
             base,
             axis,
             aa,
