@@ -70,12 +70,7 @@ impl Capsule {
         let base = relative(one, centre);
         let axis = relative(other, [one[0], one[1], one[2]]);
         let (aa, rr) = (dot(&axis, &axis), exact(one[3]).scale2(-scale).square());
-        (one[3] == other[3] && is_positive(aa) && is_positive(rr)).then_some(Self {
-            base,
-            axis,
-            aa,
-            rr,
-        })
+        (one[3] == other[3] && is_positive(aa) && is_positive(rr)).then_some(Self { base, axis, aa, rr })
     }
 
     /// The interval of the line inside; `None` if it certainly misses.
