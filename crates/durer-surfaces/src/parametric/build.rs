@@ -16,8 +16,10 @@ const FLAT: f64 = 0.25;
 const FINEST: u32 = 10;
 /// What has no bounds after so many halvings along one parameter is left out.
 const UNBOUNDED: u32 = 50;
-/// No map is cut into many more pieces than this.
+/// The maps of a sheet are cut into about so many pieces together, or into [`LEAST`] each.
 const MOST: usize = 1 << 14;
+/// A map may be cut into so many pieces, however many maps there are.
+const LEAST: usize = 1 << 6;
 /// A piece that may jump and is cut as finely as can be is at most this part of the whole large,
 /// unless it does jump.
 const TORN: f64 = 1.0 / 64.0;
@@ -36,8 +38,24 @@ struct Open {
     halved: [u32; 2],
 }
 
-/// The pieces of a map, in its own units.
-pub(super) fn pieces(face: &Face, number: u32, bounds: &Bounds, out: &mut Vec<Piece>) -> Result<(), Refused> {
+/// The pieces of all maps, in their own units. An error says which map is refused.
+pub(super) fn all_pieces(faces: &[Face], bounds: &Bounds) -> Result<Vec<Piece>, (u32, Refused)> {
+    let most = (MOST / faces.len().max(1)).max(LEAST);
+    let mut all = Vec::new();
+    for (number, face) in (0_u32..).zip(faces) {
+        pieces(face, number, bounds, most, &mut all).map_err(|refused| (number, refused))?;
+    }
+    Ok(all)
+}
+
+/// The pieces of a map, about `most`, in its own units.
+fn pieces(
+    face: &Face,
+    number: u32,
+    bounds: &Bounds,
+    most: usize,
+    out: &mut Vec<Piece>,
+) -> Result<(), Refused> {
     let first = out.len();
     let mut made = Vec::new();
     face.pieces(number, &[face.domain], &Unit::OWN, &mut made);
@@ -47,8 +65,8 @@ pub(super) fn pieces(face: &Face, number: u32, bounds: &Bounds, out: &mut Vec<Pi
         if bounds.are_missed_by(&piece.hull) {
             continue;
         }
-        let is_full = out.len() - first + open.len() > MOST;
-        let finest = if piece.is_bounded() { FINEST } else { UNBOUNDED };
+        let (most, finest) = if piece.is_bounded() { (most, FINEST) } else { (MOST, UNBOUNDED) };
+        let is_full = out.len() - first + open.len() > most;
         let may = [0, 1].map(|k| halved[k] < finest && piece.has_halves(k));
         if !piece.is_bounded() {
             if is_full || may != [true; 2] {

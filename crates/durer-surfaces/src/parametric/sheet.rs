@@ -52,10 +52,7 @@ impl Sheet {
     /// Edges of maps that are to be one are within `gap` of each other, in units, besides what the
     /// formulas are off by there. An error says which map is refused.
     pub(super) fn new(faces: Vec<Face>, bounds: &Bounds, gap: f64) -> Result<Option<Self>, (u32, Refused)> {
-        let mut all = Vec::new();
-        for (number, face) in (0_u32..).zip(&faces) {
-            build::pieces(face, number, bounds, &mut all).map_err(|refused| (number, refused))?;
-        }
+        let mut all = build::all_pieces(&faces, bounds)?;
         let box_of = |piece: &Piece| {
             let end = |of: fn(&durer_math::Interval) -> f64| {
                 let [x, y, z] = [0, 1, 2].map(|c| of(&piece.hull[c]));

@@ -230,14 +230,11 @@ impl SphereSweep {
         let clear = (CLEAR * (1.0 + y.abs().max_abs())).min(r / 128.0);
         let mut off = 2.0 * eta + clear + bend.min(1.0 / tau) * tau * tau + 2.0 * dip;
         // Next to the tip of a cone the way out is along the axis, and the way in is as long as the
-        // cone must be to be wider than all errors. So it is where the balls shrink as fast as they
-        // move: all touch each other there. Where two tips touch, the ray enters or leaves by
-        // either one.
+        // cone must be to be wider than all errors.
         let (way, opens) = (c1.length(), r1.abs());
-        let n = if r <= 64.0 * off && opens > 0.0 && way > 0.0 {
-            off = (off + 8.0 * (eta + tau + r) * (way / opens).max(1.0)).min(durer_math::scale::pow2(-20));
-            let out = c1 * (if r1 > 0.0 { -1.0 } else { 1.0 } / way);
-            if out.dot(at.d) * f64::from(root.sign) < 0.0 { -out } else { out }
+        let n = if r <= 64.0 * off && opens > 0.0 && opens < way {
+            off = (off + 8.0 * (eta + tau + r) * (way / opens)).min(durer_math::scale::pow2(-20));
+            c1 * (if r1 > 0.0 { -1.0 } else { 1.0 } / way)
         } else {
             n
         };

@@ -239,9 +239,8 @@ fn sweeps() -> Vec<SphereSweep> {
         linear(&[[0.0, 0.0, 0.0, 1.0], [2.0, 1.0, 0.5, 0.0]]),
         linear(&[[0.0, 0.0, 0.0, 1.0], [0.5, 0.25, 0.0, 2.0]]),
         linear(&[[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0], [2.0, 0.0, 0.0, 0.0], [2.0, 2.0, 1.0, -0.5]]),
-        // Radii of both signs, and balls that touch each other in one point.
+        // Radii of both signs.
         linear(&[[-2.0, 0.0, 0.0, 1.0], [2.0, 0.0, 0.0, -1.0]]),
-        linear(&[[-1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0]]),
         linear(&wave),
         b(&wave),
         cubic(&wave),
