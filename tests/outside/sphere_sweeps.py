@@ -127,7 +127,13 @@ class SphereSweep(Region):
         return True
 
     def balls(self, p):
-        """What has its normal at a point of the boundary."""
+        """What has its normal at a point of the boundary; nothing next to a ball of radius 0, a tip, which has no tangent plane.
+
+        A tip is next to it if it is within 2^-40 of the size: brackets are about that wide (1000 ulp is 2^-43).
+        """
+        tips = [tuple(at(c, F(u)) for c in piece[:3]) for piece in self.pieces for u in (0, 1) if at(piece[3], F(u)) == 0]
+        if any(dot(sub(p, c), sub(p, c)) <= self.unit() / (1 << 80) for c in tips):
+            return []
         out = []
         for piece, u in self.least(p)[1]:
             f2 = at(slope(slope(self.about(piece, p))), u)
