@@ -19,7 +19,7 @@ const UNBOUNDED: u32 = 50;
 /// The maps of a sheet are cut into about so many pieces together, or into [`LEAST`] each.
 const MOST: usize = 1 << 14;
 /// A map may be cut into so many pieces, however many maps there are.
-const LEAST: usize = 1 << 6;
+const LEAST: usize = 1 << 9;
 /// A piece that may jump and is cut as finely as can be is at most this part of the whole large,
 /// unless it does jump.
 const TORN: f64 = 1.0 / 64.0;
