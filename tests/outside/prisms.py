@@ -8,7 +8,7 @@ counting the crossings of a line in the plane of the outlines, one that no verte
 from fractions import Fraction as F
 
 from exact import complement, sign
-from shapes import Answer, Event, Loops, cross, dot, text, times
+from shapes import Answer, Event, Loops, Map, cross, dot, text, times, vec
 from solids import Region, at, between, grouped, minus, multiply, places, plus, scaled, whole
 from zero_sets import Root, near, real_roots, trim
 
@@ -105,40 +105,69 @@ def prism(rng):
     return StraightPrism(words, faces, points, [w for w in ways if any(w)], size, open_)
 
 
+class StraightSweep(StraightPrism):
+    """A prism in its own frame, which `inner` carries onto the path. All else is in the frame of the sweep."""
+
+    def __init__(self, body, faces, points, size, open_, inner):
+        super().__init__(body, faces, points, [], size, open_)
+        self.inner, self.maps = inner, {}
+
+    def accepts(self, m):
+        """Whether the map onto the path and `m` make one map without rounding."""
+        columns = [*zip(*self.inner.rows)]
+        sums = [[r[k] * c[k] for k in range(3)] for r in m.rows for c in columns]
+        sums += [[*(r[k] * self.inner.c[k] for k in range(3)), c] for r, c in zip(m.rows, m.c)]
+        parts = (sum(x for k, x in enumerate(terms) if which >> k & 1) for terms in sums for which in range(1 << len(terms)))
+        return all(F(float(x)) == x for x in parts)
+
+    def answer(self, o, d, m, k=None):
+        if id(m) not in self.maps:
+            self.maps[id(m)] = m, m.after(self.inner)
+        answer = super().answer(o, d, self.maps[id(m)][1], k)
+        for e in answer.events:
+            e.normals = [(self.inner.normal(n), side) for n, side in e.normals]
+        return answer
+
+
 def straight_sweep(rng):
-    """A profile along a straight path, with one size or two: the exact image of a prism, no ray exactly through an edge, where the rule of the prism's own frame holds."""
+    """A profile along a straight path, with one size or two: the exact image of a prism."""
     u = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
     jitter = lambda: F(rng.randint(-(1 << 18), 1 << 18), 1 << 20)
-    loops = [[(a + jitter(), b + jitter()) for a, b in loop] for loop in rng.choice(OUTLINES)]
+    loops = [[(u * (a + jitter()), u * (b + jitter())) for a, b in loop] for loop in rng.choice(OUTLINES)]
     sizes = (F(1), rng.choice((F(1), F(2), F(1, 2), F(5, 4))))
     way = rng.choice(((0, 0, 1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)))
     # The smallest rotation of z onto the path.
     turned = lambda e: minus3(e, times(F(dot(e, way), 1 + way[2]), plus3((0, 0, 1), way)))
-    x, y = turned((1, 0, 0)), turned((0, 1, 0))
-    start = rng.choice(((0, 0, 0), (1, -2, 3)))
-    path = [start, plus3(start, times(rng.choice((1, 4, 16)), way))]
-    place = lambda p, knot, k: times(u, plus3(knot, plus3(times(k * p[0], x), times(k * p[1], y))))
-    first, last = ([[place(p, knot, k) for p in loop] for loop in loops] for knot, k in zip(path, sizes))
+    start = times(u, rng.choice(((0, 0, 0), (1, -2, 3))))
+    along = times(u * rng.choice((1, 4, 16)), way)
+    conic = sizes[0] != sizes[1]
+    if conic:
+        axis, heights = times(1 / (sizes[1] - sizes[0]), along), sizes
+    else:
+        axis, heights = along, (F(0), F(1))
+    inner = Map(tuple(zip(turned((1, 0, 0)), axis, turned((0, 1, 0)))), minus3(start, times(heights[0], axis)))
+    swept = lambda p, y: (p[0] * y, y, p[1] * y) if conic else (p[0], y, p[1])
+    first, last = ([[swept(p, y) for p in loop] for loop in loops] for y in heights)
     faces = [[[a[k - 1], a[k], b[k], b[k - 1]]] for a, b in zip(first, last) for k in range(len(a))]
     open_ = rng.random() < 0.15
     if not open_:
         faces += [first, last]
-    profile = ", ".join(f"linear_spline {len(loop)}, " + ", ".join(f"<{text(a * u)}, {text(b * u)}>" for a, b in loop) for loop in loops)
-    words = f"sweep {{ profile {profile} path linear_spline 2, " + ", ".join("<" + ", ".join(text(c * u) for c in p) + ">" for p in path)
-    words += f" size 2, {text(sizes[0])}, {text(sizes[1])}" * (sizes[0] != sizes[1]) + " open" * open_ + " }"
+    profile = ", ".join(f"linear_spline {len(loop)}, " + ", ".join(f"<{text(a)}, {text(b)}>" for a, b in loop) for loop in loops)
+    words = f"sweep {{ profile {profile} path linear_spline 2, {vec(start)}, {vec(plus3(start, along))}"
+    words += f" size 2, {text(sizes[0])}, {text(sizes[1])}" * conic + " open" * open_ + " }"
+    a, b = ([[inner.point(p) for p in loop] for loop in end] for end in (first, last))
 
     def points():
         k = rng.randrange(len(loops))
         j = rng.randrange(len(loops[k]))
-        a, b = first[k], last[k]
         s, t = F(rng.random()), F(rng.random())
         between_ = lambda p, q, f: plus3(p, times(f, minus3(q, p)))
-        yield near(between_(between_(a[j - 1], a[j], s), between_(b[j - 1], b[j], s), t))
-        yield near(between_(a[j], b[j], s))
-        yield near(between_(between_(a[0], a[1], s), b[2], t))
+        yield near(between_(between_(a[k][j - 1], a[k][j], s), between_(b[k][j - 1], b[k][j], s), t))
+        yield near(between_(a[k][j], b[k][j], s))
+        yield near(between_(between_(a[k][0], a[k][1], s), b[k][2], t))
 
-    size = max(max(map(abs, c)) for face in faces for loop in face for c in loop)
-    return StraightPrism(words, faces, points, [], size, open_)
+    size = max(max(map(abs, c)) for end in (a, b) for loop in end for c in loop)
+    return StraightSweep(words, faces, points, size, open_, inner)
 
 
 def plus3(a, b):

@@ -527,6 +527,8 @@ def leaf_of(rng, kind, clips=True):
     elif isinstance(leaf, (Solid, ZeroSet, Region, Copies)) and rng.random() < 0.12:
         leaf.inverse = True
     leaf.map = placement(rng)
+    while not leaf.accepts(leaf.map):
+        leaf.map = placement(rng)
     return leaf
 
 

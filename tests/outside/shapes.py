@@ -176,6 +176,10 @@ class Leaf:
         self.map, self.clip, self.clip_text, self.inverse = IDENTITY, [], "", False
         self.faces = 1
 
+    def accepts(self, m):
+        """Whether the leaf may be placed by this map."""
+        return True
+
     def sdl(self, with_map=True):
         words = [self.body]
         if self.clip_text:
