@@ -131,11 +131,16 @@ class SphereSweep(Region):
 
         A tip is next to it if it is within 2^-40 of the size: brackets are about that wide (1000 ulp is 2^-43).
         """
-        tips = [tuple(at(c, F(u)) for c in piece[:3]) for piece in self.pieces for u in (0, 1) if at(piece[3], F(u)) == 0]
+        zeros = [(piece, r.rational(300)) for piece in self.pieces for r in real_roots(whole(piece[3])) or [] if r.against(F(0)) >= 0 >= r.against(F(1))]
+        tips = [tuple(at(c, u) for c in piece[:3]) for piece, u in zeros]
         if any(dot(sub(p, c), sub(p, c)) <= self.unit() / (1 << 80) for c in tips):
             return []
         out = []
-        for piece, u in self.least(p)[1]:
+        # Where a piece goes over into the ball at its end, rounding does not tell which of them is met: the ball's boundary then passes the bracket, too.
+        off = (max(map(abs, p)) + self.size) / 10**13
+        ends = [(piece, F(u)) for piece in self.pieces for u in (0, 1) if abs(at(self.about(piece, p), F(u))) <= 2 * abs(at(piece[3], F(u))) * off]
+        least = self.least(p)[1]
+        for piece, u in least + [end for end in ends if end not in least]:
             f2 = at(slope(slope(self.about(piece, p))), u)
             speed = max(abs(at(slope(c), u)) for c in piece[:3])
             inner = 0 < u < 1
@@ -183,8 +188,8 @@ class SphereSweep(Region):
                 continue
             turn = 0 if before == after else flip * (1 if before else -1)
             event = Event(root, turn, [(b, flip) for b in self.balls(point(root.rational(600)))], self)
-            # A touch where balls of several pieces meet may be told or not.
-            event.optional = before == after and len(group) > 1
+            # A touch where balls of several pieces meet may be told or not; also where a body shrinks to a point and a line passes it from inside to inside.
+            event.optional = before == after and (len(group) > 1 or after and not event.normals)
             events.append(event)
             if before != after:
                 if after:
