@@ -188,14 +188,19 @@ class SphereSweep(Region):
                 continue
             turn = 0 if before == after else flip * (1 if before else -1)
             event = Event(root, turn, [(b, flip) for b in self.balls(point(root.rational(600)))], self)
-            # A touch where balls of several pieces meet may be told or not; also where a body shrinks to a point and a line passes it from inside to inside.
-            event.optional = before == after and (len(group) > 1 or after and not event.normals)
+            # A touch where balls of several pieces meet may be told or not. A touch from inside is none: balls that touch are one body.
+            event.optional = before == after and (len(group) > 1 or after)
             events.append(event)
             if before != after:
                 if after:
                     start = root
                 else:
                     inside.append((start, root))
+        # Brackets do not tell a touch from a crossing that is nearer than they are wide.
+        for e in events:
+            for other in events:
+                if e.sign == 0 and other.sign and max(abs(x - y) for x, y in zip(point(e.t.rational(300)), point(other.t.rational(300)))) <= self.size / (1 << 43):
+                    e.optional = True
         inside = complement(inside) if self.inverse else inside
         return Answer(self.clipped(events, ray), inside, self.within)
 
