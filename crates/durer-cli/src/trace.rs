@@ -30,14 +30,14 @@ pub(crate) fn run(args: &TraceArgs) -> Result<(), Failure> {
             let mut npz = NpzWriter::new(file);
             match args.query {
                 Query::Closest => closest(geometry, &rays).write(&mut npz)?,
-                Query::Any => npz.array("hit", None, geometry.any_batch(&rays))?,
+                Query::Any => npz.array("hit", None, geometry.batch(&rays).any())?,
                 Query::All => all(geometry, &rays, &mut npz)?,
                 Query::Spans => {
-                    let found = spans(&rays, |step| geometry.spans_batch(step));
+                    let found = spans(&rays, |step| geometry.batch(step).spans());
                     write_spans(&mut npz, &found, |span| *span)?;
                 }
                 Query::SpansByObject => {
-                    let found = spans(&rays, |step| geometry.spans_by_object_batch(step));
+                    let found = spans(&rays, |step| geometry.batch(step).spans_by_object());
                     write_spans(&mut npz, &found, |of| of.span)?;
                     npz.array("object", None, found.items.iter().map(|s| s.object.0 as i32).collect())?;
                 }
@@ -86,8 +86,8 @@ impl Columns {
         self.t.push(hit.t);
         self.t_lo.push(hit.t_lo);
         self.t_hi.push(hit.t_hi);
-        self.object.push(hit.object as i32);
-        self.primitive.push(hit.primitive);
+        self.object.push(hit.object.0 as i32);
+        self.primitive.push(hit.primitive.0);
         self.uv.extend(point.uv);
         self.position.extend(point.p.to_array());
         self.normal.extend(point.ng.to_array());
@@ -115,7 +115,7 @@ fn resolved(geometry: &Geometry, ray: &Ray, hit: Hit) -> (Hit, SurfacePoint) {
 fn closest(geometry: &Geometry, rays: &[Ray]) -> Columns {
     let mut columns = Columns::default();
     for step in rays.chunks(STEP) {
-        let hits = geometry.closest_batch(step);
+        let hits = geometry.batch(step).closest();
         let points: Vec<_> = step
             .par_iter()
             .zip(hits)
@@ -130,7 +130,7 @@ fn closest(geometry: &Geometry, rays: &[Ray]) -> Columns {
 fn all(geometry: &Geometry, rays: &[Ray], npz: &mut NpzWriter) -> std::io::Result<()> {
     let (mut columns, mut sign, mut offsets) = (Columns::default(), Vec::new(), vec![0_u64]);
     for step in rays.chunks(STEP) {
-        let hits = geometry.all_batch(step);
+        let hits = geometry.batch(step).all();
         let points: Vec<Vec<_>> = step
             .par_iter()
             .enumerate()

@@ -19,7 +19,7 @@ fn worlds() -> Vec<(&'static str, Geometry)> {
     let turn = Affine::rotation_x(0.7).expect("an angle").then(&Affine::rotation_z(-0.4).expect("an angle"));
     let turn = turn.expect("two turns are a turn");
     let ground = Plane::new(Vec3::Y, -1.0).expect("a plane");
-    let world = |mut builder: durer_geometry::Builder| builder.build().expect("a small world");
+    let world = |builder: durer_geometry::Builder| builder.build().expect("a small world");
     let with = |add: &dyn Fn(&mut durer_geometry::Builder)| {
         let mut builder = Geometry::builder();
         builder.add(ground);
@@ -121,7 +121,7 @@ fn trace(world: &Geometry, way: usize, (bx, by): (usize, usize), scratch: &mut S
             let ray = ray(bx + x, by + y);
             black_box(match &beam {
                 Some(beam) => world.seen_in(beam, &ray, EVERYTHING, Need::SHADING_NORMAL),
-                None => world.first_visible(&ray, EVERYTHING, Need::SHADING_NORMAL),
+                None => world.masked(EVERYTHING).first_visible(&ray, Need::SHADING_NORMAL),
             });
         }
     }

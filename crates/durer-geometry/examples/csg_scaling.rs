@@ -115,7 +115,7 @@ fn scene(body: Body, leaves: u32) -> Geometry {
     let mut csg = Compound::builder();
     let whole = body(&mut csg, leaves);
     let body = csg.build(whole).expect("a body");
-    Geometry::builder().add_compound(body).build().expect("a scene")
+    Geometry::builder().with_compound(body).build().expect("a scene")
 }
 
 fn time(rays: &[Ray], ask: impl Fn(&Ray) -> usize) -> (f64, usize) {

@@ -130,8 +130,8 @@ fn measure(atoms: u64, threads: usize) {
                 count / worked
             )
         };
-        let closest = rate(&|| geometry.closest_batch(&rays).iter().flatten().count());
-        let any = rate(&|| geometry.any_batch(&rays).iter().filter(|hit| **hit).count());
+        let closest = rate(&|| geometry.batch(&rays).closest().iter().flatten().count());
+        let any = rate(&|| geometry.batch(&rays).any().iter().filter(|hit| **hit).count());
         println!("    {name:8} closest: {closest}\n             any:     {any}");
     }
 }

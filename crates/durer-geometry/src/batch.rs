@@ -3,6 +3,7 @@
 use crate::geometry::Geometry;
 use crate::ids::EVERYTHING;
 use crate::interleave::{ABREAST, Abreast};
+use crate::query::Masked;
 use crate::{Hit, ObjectSpan, Span};
 use durer_math::Ray;
 use rayon::prelude::*;
@@ -41,58 +42,113 @@ impl<T> Ragged<T> {
 /// Rays per task: enough to pay for its overhead.
 const CHUNK: usize = 1024;
 
+/// The queries of many rays, answered in the order of the rays. Made by [`Geometry::batch`] and
+/// [`Masked::batch`].
+///
+/// The answers do not depend on the number of threads.
+///
+/// ```
+/// use durer_geometry::Geometry;
+/// use durer_math::{Point3, Ray, Vec3};
+/// use durer_surfaces::Sphere;
+///
+/// let scene = Geometry::builder().with(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
+/// let rays = [0.0, 0.5, 2.0].map(|x| Ray::new(Point3::new(x, 0.0, -3.0), Vec3::Z));
+/// let hits = scene.batch(&rays).threads(2).closest();
+/// assert_eq!(hits.iter().map(|hit| hit.is_some()).collect::<Vec<_>>(), [true, true, false]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Batch<'a> {
+    view: Masked<'a>,
+    rays: &'a [Ray],
+    threads: usize,
+}
+
 impl Geometry {
-    /// [`Geometry::closest`] for each ray. The answers do not depend on the number of threads.
-    pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
-        each(rays, |some, hits| self.closest_abreast(some, hits))
+    /// The queries of all surfaces for these rays.
+    pub fn batch<'a>(&'a self, rays: &'a [Ray]) -> Batch<'a> {
+        self.masked(EVERYTHING).batch(rays)
+    }
+}
+
+impl<'a> Masked<'a> {
+    /// The queries of these surfaces for these rays.
+    pub fn batch(self, rays: &'a [Ray]) -> Batch<'a> {
+        Batch { view: self, rays, threads: 0 }
+    }
+}
+
+impl Batch<'_> {
+    /// How many threads work; 0, the default, means those of the thread pool that this is called
+    /// from, else all processors. Where the system refuses to start threads, that pool works.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
     }
 
-    /// [`Geometry::any`] for each ray.
-    pub fn any_batch(&self, rays: &[Ray]) -> Vec<bool> {
-        each(rays, |some, hits| {
-            self.any_abreast(some, EVERYTHING, &mut Abreast::default(), |_, is_met| hits.push(is_met));
+    /// [`Masked::closest`] for each ray.
+    pub fn closest(&self) -> Vec<Option<Hit>> {
+        self.each(|view, some, hits| view.geometry.closest_abreast(some, view.mask, hits))
+    }
+
+    /// [`Masked::any`] for each ray.
+    pub fn any(&self) -> Vec<bool> {
+        self.each(|view, some, hits| {
+            let memory = &mut Abreast::default();
+            view.geometry.any_abreast(some, view.mask, memory, |_, is_met| hits.push(is_met));
         })
     }
 
-    /// [`Geometry::all`] for each ray.
-    pub fn all_batch(&self, rays: &[Ray]) -> Ragged<Hit> {
-        ragged(rays, |ray| self.all(ray))
+    /// [`Masked::all`] for each ray.
+    pub fn all(&self) -> Ragged<Hit> {
+        self.ragged(|view, ray| view.all(ray))
     }
 
-    /// [`Geometry::spans`] for each ray.
-    pub fn spans_batch(&self, rays: &[Ray]) -> Ragged<Span> {
-        ragged(rays, |ray| self.spans(ray))
+    /// [`Masked::spans`] for each ray.
+    pub fn spans(&self) -> Ragged<Span> {
+        self.ragged(|view, ray| view.spans(ray))
     }
 
-    /// [`Geometry::spans_by_object`] for each ray.
-    pub fn spans_by_object_batch(&self, rays: &[Ray]) -> Ragged<ObjectSpan> {
-        ragged(rays, |ray| self.spans_by_object(ray))
+    /// [`Masked::spans_by_object`] for each ray.
+    pub fn spans_by_object(&self) -> Ragged<ObjectSpan> {
+        self.ragged(|view, ray| view.spans_by_object(ray))
     }
-}
 
-/// One answer for each ray, in the order of the rays.
-fn each<T: Send>(rays: &[Ray], query: impl Fn(&[Ray], &mut Vec<T>) + Sync) -> Vec<T> {
-    let part = |rays: &[Ray]| {
-        let mut answers = Vec::with_capacity(rays.len());
-        rays.chunks(ABREAST).for_each(|some| query(some, &mut answers));
+    /// One answer for each ray, in the order of the rays.
+    fn each<T: Send>(&self, query: impl Fn(&Masked<'_>, &[Ray], &mut Vec<T>) + Sync) -> Vec<T> {
+        let part = |rays: &[Ray]| {
+            let mut answers = Vec::with_capacity(rays.len());
+            rays.chunks(ABREAST).for_each(|some| query(&self.view, some, &mut answers));
+            answers
+        };
+        let parts: Vec<Vec<T>> = self.install(|| self.rays.par_chunks(CHUNK).map(part).collect());
+        let mut answers = Vec::with_capacity(self.rays.len());
+        parts.into_iter().for_each(|mut part| answers.append(&mut part));
         answers
-    };
-    let parts: Vec<Vec<T>> = rays.par_chunks(CHUNK).map(part).collect();
-    let mut answers = Vec::with_capacity(rays.len());
-    parts.into_iter().for_each(|mut part| answers.append(&mut part));
-    answers
-}
+    }
 
-fn ragged<T: Send>(rays: &[Ray], query: impl Fn(&Ray) -> Vec<T> + Sync) -> Ragged<T> {
-    let part = |rays: &[Ray]| {
-        let mut lengths = Vec::with_capacity(rays.len());
-        let mut items = Vec::new();
-        for ray in rays {
-            let mut found = query(ray);
-            lengths.push(found.len() as u32);
-            items.append(&mut found);
+    /// Several answers for each ray, in the order of the rays.
+    fn ragged<T: Send>(&self, query: impl Fn(&Masked<'_>, &Ray) -> Vec<T> + Sync) -> Ragged<T> {
+        let part = |rays: &[Ray]| {
+            let mut lengths = Vec::with_capacity(rays.len());
+            let mut items = Vec::new();
+            for ray in rays {
+                let mut found = query(&self.view, ray);
+                lengths.push(found.len() as u32);
+                items.append(&mut found);
+            }
+            (lengths, items)
+        };
+        Ragged::gathered(self.install(|| self.rays.par_chunks(CHUNK).map(part).collect()))
+    }
+
+    /// Runs `work` on the wanted threads.
+    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        let pool = || rayon::ThreadPoolBuilder::new().num_threads(self.threads).build().ok();
+        match (self.threads > 0).then(pool).flatten() {
+            Some(pool) => pool.install(work),
+            None => work(),
         }
-        (lengths, items)
-    };
-    Ragged::gathered(rays.par_chunks(CHUNK).map(part).collect())
+    }
 }

@@ -21,7 +21,7 @@ use std::sync::Arc;
 /// use durer_surfaces::Sphere;
 ///
 /// let ball = Sphere::new(Point3::ORIGIN, 1.0)?;
-/// let scene = Geometry::builder().add(ball).build()?;
+/// let scene = Geometry::builder().with(ball).build()?;
 /// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, -5.0), Vec3::Z)).unwrap();
 /// assert_eq!((hit.t, hit.sign, hit.object), (4.0, -1, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -65,6 +65,27 @@ pub enum BuildError {
 }
 
 impl Builder {
+    /// [`Builder::add`] for chains.
+    #[must_use]
+    pub fn with<S: Accelerate + 'static>(mut self, surface: S) -> Self {
+        self.add(surface);
+        self
+    }
+
+    /// [`Builder::add_compound`] for chains.
+    #[must_use]
+    pub fn with_compound(mut self, body: impl Into<Arc<Compound>>) -> Self {
+        self.add_compound(body);
+        self
+    }
+
+    /// [`Builder::instance`] for chains.
+    #[must_use]
+    pub fn with_instance(mut self, geometry: &Arc<Geometry>, affine: Affine, mask: u32) -> Self {
+        self.instance(geometry, affine, mask);
+        self
+    }
+
     /// Adds a surface as an object of its own, with the next free number.
     pub fn add<S: Accelerate + 'static>(&mut self, surface: S) -> &mut Self {
         self.add_as(surface, ObjectId(self.next_object), PrimitiveId(0), EVERYTHING)
@@ -149,21 +170,24 @@ impl Builder {
     }
 
     /// Sets how the tree is built; the default is [`Settings::GOOD`]. Answers do not depend on it.
-    pub fn settings(&mut self, settings: Settings) -> &mut Self {
+    #[must_use]
+    pub fn settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
         self
     }
 
     /// Builds no tree: every query tests everything. This defines the answers; those with a tree
     /// are equal, bit for bit.
-    pub fn without_tree(&mut self) -> &mut Self {
+    #[must_use]
+    pub fn without_tree(mut self) -> Self {
         self.without_tree = true;
         self
     }
 
     /// Sets the instruction set, in place of that from [`Isa::detect`]. Answers do not depend on
     /// it.
-    pub fn isa(&mut self, isa: Isa) -> &mut Self {
+    #[must_use]
+    pub fn isa(mut self, isa: Isa) -> Self {
         self.isa = Some(isa);
         self
     }
@@ -207,11 +231,9 @@ impl Builder {
         }
     }
 
-    /// Builds the geometry; the builder is empty afterwards.
-    ///
-    /// The result does not depend on the number of threads.
-    pub fn build(&mut self) -> Result<Geometry, BuildError> {
-        let builder = core::mem::take(self);
+    /// Builds the geometry. It does not depend on the number of threads.
+    pub fn build(self) -> Result<Geometry, BuildError> {
+        let builder = self;
         let mut arenas = builder.arenas;
         let mut instances = builder.instances;
         let placements = number_placements(&mut instances)?;

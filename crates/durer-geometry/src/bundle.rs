@@ -105,7 +105,7 @@ impl Geometry {
         Candidate { arena, slot, name, mask }
     }
 
-    /// [`Geometry::first_visible`] for a ray of the bundle that `candidates` was made for, with the
+    /// [`Masked::first_visible`](crate::Masked::first_visible) for a ray of the bundle that `candidates` was made for, with the
     /// same answer.
     #[inline]
     pub fn seen_in(
@@ -119,7 +119,7 @@ impl Geometry {
             return None;
         }
         if beam.candidates.len() > CandidateList::FEW {
-            return self.first_visible(ray, mask, need);
+            return self.masked(mask).first_visible(ray, need);
         }
         self.walk_roughly(
             ray,
@@ -136,12 +136,12 @@ impl Geometry {
         )?
     }
 
-    /// [`Geometry::any_masked`] for a ray of the bundle that `candidates` was made for, with the
+    /// [`Masked::any`](crate::Masked::any) for a ray of the bundle that `candidates` was made for, with the
     /// same answer.
     #[inline]
     pub fn any_in(&self, beam: &CandidateList, ray: &Ray, mask: u32) -> bool {
         if beam.candidates.len() > CandidateList::FEW {
-            return self.any_masked(ray, mask);
+            return self.masked(mask).any(ray);
         }
         !beam.is_empty()
             && self.walk_roughly(

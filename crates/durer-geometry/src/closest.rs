@@ -1,7 +1,7 @@
 //! The closest hit so far.
 
-use crate::Hit;
 use crate::ids::Id;
+use crate::{Hit, ObjectId, PrimitiveId};
 use durer_surfaces::Root;
 
 /// The placement whose surfaces are being tested.
@@ -24,9 +24,9 @@ impl Placement {
             t: root.t + 0.0,
             t_lo: root.lo + 0.0,
             t_hi: root.hi + 0.0,
-            uv: root.tag,
-            object: self.object.wrapping_add(name.object),
-            primitive: self.primitive.wrapping_add(name.primitive),
+            tag: root.tag,
+            object: ObjectId(self.object.wrapping_add(name.object)),
+            primitive: PrimitiveId(self.primitive.wrapping_add(name.primitive)),
             instance: self.instance,
             face: root.face,
             sign: root.sign,

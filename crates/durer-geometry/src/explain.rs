@@ -291,7 +291,7 @@ impl<P: Fn(ObjectId) -> Option<String>> fmt::Display for InWords<'_, P> {
             return writeln!(f, "it meets nothing");
         };
         write!(f, "closest: object {}, primitive {}", hit.object, hit.primitive)?;
-        if let Some(place) = (self.place_of)(ObjectId(hit.object)) {
+        if let Some(place) = (self.place_of)(hit.object) {
             write!(f, " ({place})")?;
         }
         if hit.instance > 0 {

@@ -1,5 +1,6 @@
 //! The answers of queries.
 
+use core::fmt;
 use durer_surfaces::{Root, RootKind};
 
 /// The number of an object, as given by the caller: in a scene, the top-level objects count from 0
@@ -10,6 +11,18 @@ pub struct ObjectId(pub u32);
 /// The number of a primitive within its object, as in a [`Hit`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PrimitiveId(pub u32);
+
+impl fmt::Display for ObjectId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Display for PrimitiveId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
 
 impl PrimitiveId {
     /// The number of a primitive within a compound whose first primitive is `first`.
@@ -38,13 +51,13 @@ pub struct Hit {
     pub t_lo: f64,
     /// An upper bound on the exact parameter.
     pub t_hi: f64,
-    /// The kernel's own coordinates (triangle: barycentric b1, b2). Texture coordinates come from
-    /// [`Geometry::resolve`](crate::Geometry::resolve).
-    pub uv: [f64; 2],
+    /// The kernel's own coordinates (triangle: barycentric b1, b2). Texture coordinates are the
+    /// `uv` of the point that [`Geometry::resolve`](crate::Geometry::resolve) returns.
+    pub tag: [f64; 2],
     /// The object.
-    pub object: u32,
+    pub object: ObjectId,
     /// The primitive within the object.
-    pub primitive: u32,
+    pub primitive: PrimitiveId,
     /// The placement: 0 for the geometry's own surfaces; then its instances in the order in which
     /// they were added, each followed by those nested in it.
     pub instance: u32,
@@ -72,7 +85,7 @@ impl Hit {
             lo: self.t_lo,
             hi: self.t_hi,
             s: self.s,
-            tag: self.uv,
+            tag: self.tag,
             face: self.face,
             sign: self.sign,
             kind: self.kind,

@@ -4,7 +4,6 @@ use crate::Hit;
 use crate::closest::ClosestHit;
 use crate::context::RayContext;
 use crate::geometry::Geometry;
-use crate::ids::EVERYTHING;
 use crate::query::{any_in, closest_in};
 use durer_bvh::{Leaf, PACKET, Packet32, Ray32, Ray64, Rays};
 use durer_math::Ray;
@@ -17,19 +16,19 @@ const LEAST: usize = 1 << 12;
 pub(crate) const ABREAST: usize = 256;
 
 impl Geometry {
-    /// [`Geometry::closest`] of a few rays.
-    pub(crate) fn closest_abreast(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
+    /// [`Masked::closest`](crate::Masked::closest) of a few rays.
+    pub(crate) fn closest_abreast(&self, rays: &[Ray], mask: u32, hits: &mut Vec<Option<Hit>>) {
         if self.tree.len() < LEAST {
-            hits.extend(rays.iter().map(|ray| self.closest(ray)));
+            hits.extend(rays.iter().map(|ray| self.masked(mask).closest(ray)));
             return;
         }
         let mut memory = Abreast::default();
-        let mut all = Closest::of(self, rays, EVERYTHING, false, &mut memory);
+        let mut all = Closest::of(self, rays, mask, false, &mut memory);
         self.tree.closest_of_each(self.isa, rays.len(), &mut all);
         hits.extend(memory.best.into_iter().map(|best| best.hit));
     }
 
-    /// [`Geometry::first_visible`] of a few rays; `put` receives the answers with their rays'
+    /// [`Masked::first_visible`](crate::Masked::first_visible) of a few rays; `put` receives the answers with their rays'
     /// numbers.
     pub(crate) fn seen_abreast(
         &self,
@@ -40,7 +39,7 @@ impl Geometry {
         mut put: impl FnMut(usize, Option<(Hit, SurfacePoint)>),
     ) {
         if self.tree.len() < LEAST || rays.len() == 1 {
-            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.first_visible(ray, mask, need)));
+            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.masked(mask).first_visible(ray, need)));
             return;
         }
         let mut all = Closest::of(self, rays, mask, true, memory);
@@ -51,7 +50,7 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::any_masked`] of a few rays; `put` receives the answers with their rays' numbers.
+    /// [`Masked::any`](crate::Masked::any) of a few rays; `put` receives the answers with their rays' numbers.
     pub(crate) fn any_abreast(
         &self,
         rays: &[Ray],
@@ -60,7 +59,7 @@ impl Geometry {
         mut put: impl FnMut(usize, bool),
     ) {
         if self.tree.len() < LEAST || rays.len() == 1 {
-            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.any_masked(ray, mask)));
+            rays.iter().enumerate().for_each(|(i, ray)| put(i, self.masked(mask).any(ray)));
             return;
         }
         let Abreast { locals, met, .. } = memory;
@@ -283,7 +282,7 @@ impl Rays<bool> for Any<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ObjectId, PrimitiveId};
+    use crate::{EVERYTHING, ObjectId, PrimitiveId};
     use durer_math::{Isa, Point3, Vec3};
     use durer_surfaces::{Mesh, MeshData, Plane, Sphere};
 
@@ -303,8 +302,7 @@ mod tests {
                 }
             }
         }
-        let mut builder = Geometry::builder();
-        builder.isa(isa);
+        let mut builder = Geometry::builder().isa(isa);
         builder.add(Mesh::new(MeshData { vertices, faces, ..MeshData::default() }).unwrap());
         for n in 0..900_u32 {
             let (i, j) = (2 * (n / 30) + 1, 2 * (n % 30) + 1);
@@ -342,13 +340,13 @@ mod tests {
                         told += 1;
                         assert_eq!(
                             seen,
-                            geometry.first_visible(&some[i], mask, Need::SHADING_NORMAL),
+                            geometry.masked(mask).first_visible(&some[i], Need::SHADING_NORMAL),
                             "{generation}: {:?}",
                             some[i]
                         );
                         if let Some((hit, point)) = seen {
                             hits += 1;
-                            let away = f64::from(hit.object % 5) - 2.0;
+                            let away = f64::from(hit.object.0 % 5) - 2.0;
                             next.push(point.spawn(Vec3::new(away, f64::from(i as u32 % 7) - 3.0, 1.0)));
                         }
                     });
@@ -359,7 +357,7 @@ mod tests {
                         told += 1;
                         assert_eq!(
                             is_met,
-                            geometry.any_masked(&some[i], mask),
+                            geometry.masked(mask).any(&some[i]),
                             "{generation}: {:?}",
                             some[i]
                         );

@@ -7,7 +7,7 @@
 //!
 //! let ball = Sphere::new(Point3::new(0.0, 1.0, 0.0), 1.0)?;
 //! let ground = Plane::new(Vec3::Y, 0.0)?;
-//! let scene = Geometry::builder().add(ball).add(ground).build()?;
+//! let scene = Geometry::builder().with(ball).with(ground).build()?;
 //!
 //! let ray = Ray::new(Point3::new(0.0, 5.0, 0.0), -Vec3::Y);
 //! let hit = scene.closest(&ray).unwrap();
@@ -65,7 +65,7 @@ mod resolve;
 mod spans;
 mod stats;
 
-pub use crate::batch::Ragged;
+pub use crate::batch::{Batch, Ragged};
 pub use crate::builder::{BuildError, Builder};
 pub use crate::bundle::CandidateList;
 pub use crate::csg::{Compound, CompoundBuilder, CsgError, Part, Shown};
@@ -74,6 +74,7 @@ pub use crate::geometry::Geometry;
 pub use crate::hit::{Hit, LeafId, ObjectId, ObjectSpan, PrimitiveId, Span};
 pub use crate::ids::EVERYTHING;
 pub use crate::packet::{Hits8, Rays8, Scratch, Sources8};
+pub use crate::query::Masked;
 pub use crate::refit::RefitError;
 pub use crate::stats::{Inventory, Stats};
 pub use durer_bvh::{Quality, Settings};

@@ -10,137 +10,61 @@ use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
 use durer_surfaces::{LocalPoint, LocalRay, Need, SurfacePoint};
 
+/// Which surfaces of a geometry queries see: those whose mask has a common bit with the query's.
+///
+/// Made by [`Geometry::masked`]. [`Masked::batch`] asks for arrays of rays.
+///
+/// ```
+/// use durer_geometry::{Geometry, ObjectId, PrimitiveId};
+/// use durer_math::{Point3, Ray, Vec3};
+/// use durer_surfaces::Sphere;
+///
+/// let ball = |x: f64| Sphere::new(Point3::new(x, 0.0, 0.0), 1.0);
+/// let mut builder = Geometry::builder();
+/// builder.add_as(ball(0.0)?, ObjectId(0), PrimitiveId(0), 0b01);
+/// builder.add_as(ball(5.0)?, ObjectId(1), PrimitiveId(0), 0b10);
+/// let scene = builder.build()?;
+/// let ray = Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X);
+/// assert_eq!(scene.all(&ray).len(), 4);
+/// assert_eq!(scene.masked(0b10).all(&ray).len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Masked<'a> {
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) mask: u32,
+}
+
 impl Geometry {
-    /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along
-    /// the exact ray.
-    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        self.closest_masked(ray, EVERYTHING)
-    }
-
-    /// The first hit of a surface whose mask has a common bit with `mask`.
-    pub fn closest_masked(&self, ray: &Ray, mask: u32) -> Option<Hit> {
-        self.walk(ray, mask, |walk| {
-            let mut best = ClosestHit::least();
-            closest(walk, &mut best);
-            best.hit
-        })?
-    }
-
-    /// The first hit and its point, for pictures: brackets may be as wide as
-    /// [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are nearer to each other
-    /// either may be returned. Whether anything is hit is exact.
+    /// The queries of the surfaces whose mask has a common bit with `mask`.
     #[inline]
-    pub fn first_visible(&self, ray: &Ray, mask: u32, need: Need) -> Option<(Hit, SurfacePoint)> {
-        self.walk_roughly(
-            ray,
-            mask,
-            #[inline(always)]
-            |walk| {
-                let mut best = ClosestHit::least();
-                closest(walk, &mut best);
-                let hit = best.hit?;
-                Some((hit, self.point_of(walk.ray, ray.source(), &hit, need)))
-            },
-        )?
+    pub fn masked(&self, mask: u32) -> Masked<'_> {
+        Masked { geometry: self, mask }
     }
 
-    /// Whether anything is hit.
+    /// [`Masked::closest`] of all surfaces.
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.masked(EVERYTHING).closest(ray)
+    }
+
+    /// [`Masked::any`] of all surfaces.
     pub fn any(&self, ray: &Ray) -> bool {
-        self.any_masked(ray, EVERYTHING)
+        self.masked(EVERYTHING).any(ray)
     }
 
-    /// Whether a surface is hit whose mask has a common bit with `mask`.
-    pub fn any_masked(&self, ray: &Ray, mask: u32) -> bool {
-        self.walk_roughly(ray, mask, any).unwrap_or(false)
-    }
-
-    /// Whether there is a hit for which `accept` returns true. The hits come in no particular
-    /// order, each at most once, and nothing is allocated.
-    ///
-    /// A result that must not depend on the order (a product of rounded numbers) is better computed
-    /// from [`Geometry::all_into`].
-    pub fn any_where(&self, ray: &Ray, mask: u32, mut accept: impl FnMut(&Hit) -> bool) -> bool {
-        let visit =
-            &mut |hit: &Hit| if accept(hit) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        self.walk(ray, mask, |walk| each(walk, visit)).is_some_and(|flow| flow.is_break())
-    }
-
-    /// Every crossing, once, ascending in the order of [`Hit::order`].
+    /// [`Masked::all`] of all surfaces.
     pub fn all(&self, ray: &Ray) -> Vec<Hit> {
-        self.all_masked(ray, EVERYTHING)
+        self.masked(EVERYTHING).all(ray)
     }
 
-    /// Every crossing with surfaces whose mask has a common bit with `mask`.
-    pub fn all_masked(&self, ray: &Ray, mask: u32) -> Vec<Hit> {
-        let mut hits = Vec::new();
-        self.all_into(ray, mask, &mut hits);
-        hits
-    }
-
-    /// [`Geometry::all_masked`] into a buffer that is cleared first and can be reused.
-    pub fn all_into(&self, ray: &Ray, mask: u32, hits: &mut Vec<Hit>) {
-        hits.clear();
-        self.walk(ray, mask, |walk| {
-            each(walk, &mut |hit| {
-                hits.push(*hit);
-                ControlFlow::Continue(())
-            })
-        });
-        // Stable: two crossings of one surface may round to one t, and it reported them in their
-        // exact order.
-        hits.sort_by(Hit::order);
-    }
-
-    /// The intervals of the ray inside the union of all solids: merged, ascending; open surfaces
-    /// are ignored.
-    ///
-    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Unbounded solids are
-    /// included. Touches have no length and are left out.
+    /// [`Masked::spans`] of all solids.
     pub fn spans(&self, ray: &Ray) -> Vec<Span> {
-        self.spans_masked(ray, EVERYTHING)
+        self.masked(EVERYTHING).spans(ray)
     }
 
-    /// [`Geometry::spans`] of the solids whose mask has a common bit with `mask`.
-    pub fn spans_masked(&self, ray: &Ray, mask: u32) -> Vec<Span> {
-        let tracks = self.tracks(ray, mask);
-        tracks.map_or_else(Vec::new, |tracks| tracks.merge(ray.t_min, ray.t_max))
-    }
-
-    /// The intervals of the ray inside each object: which solid it is in, from where to where.
-    ///
-    /// An object's own solids are merged as in [`Geometry::spans`]; those of different objects are
-    /// not, so where objects overlap each has its own interval. Ascending by `t_in`, then by
-    /// object.
-    ///
-    /// ```
-    /// use durer_geometry::Geometry;
-    /// use durer_math::{Point3, Ray, Vec3};
-    /// use durer_surfaces::Sphere;
-    ///
-    /// let ball = |x: f64| Sphere::new(Point3::new(x, 0.0, 0.0), 1.0);
-    /// let scene = Geometry::builder().add(ball(0.0)?).add(ball(1.0)?).build()?;
-    /// let spans = scene.spans_by_object(&Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X));
-    /// let stretches: Vec<_> = spans.iter().map(|s| (s.object.0, s.span.t_in, s.span.t_out)).collect();
-    /// assert_eq!(stretches, [(0, 2.0, 4.0), (1, 3.0, 5.0)]);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
+    /// [`Masked::spans_by_object`] of all solids.
     pub fn spans_by_object(&self, ray: &Ray) -> Vec<ObjectSpan> {
-        self.spans_by_object_masked(ray, EVERYTHING)
-    }
-
-    /// [`Geometry::spans_by_object`] of the solids whose mask has a common bit with `mask`.
-    pub fn spans_by_object_masked(&self, ray: &Ray, mask: u32) -> Vec<ObjectSpan> {
-        let tracks = self.tracks(ray, mask);
-        tracks.map_or_else(Vec::new, |tracks| tracks.merge_by_object(ray.t_min, ray.t_max))
-    }
-
-    /// The crossings of all solids; `None` if the ray is not valid.
-    fn tracks(&self, ray: &Ray, mask: u32) -> Option<Tracks> {
-        self.walk(ray, mask, |walk| {
-            let mut tracks = Tracks::new(mask);
-            spans(walk, &LocalPoint::new(ray.origin), &mut tracks);
-            tracks
-        })
+        self.masked(EVERYTHING).spans_by_object(ray)
     }
 
     /// Whether the point lies inside or on a solid: exact.
@@ -189,6 +113,113 @@ impl Geometry {
                 f(&RayContext::new(self, ray, &local, mask))
             },
         ))
+    }
+}
+
+impl Masked<'_> {
+    /// The first hit: the least by (`t`, object, primitive), and of one primitive the first along
+    /// the exact ray.
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.geometry.walk(ray, self.mask, |walk| {
+            let mut best = ClosestHit::least();
+            closest(walk, &mut best);
+            best.hit
+        })?
+    }
+
+    /// The first hit and its point, for pictures: brackets may be as wide as
+    /// [`durer_surfaces::PREVIEW_WIDTH`] allows, so of two surfaces that are nearer to each other
+    /// either may be returned. Whether anything is hit is exact.
+    #[inline]
+    pub fn first_visible(&self, ray: &Ray, need: Need) -> Option<(Hit, SurfacePoint)> {
+        self.geometry.walk_roughly(
+            ray,
+            self.mask,
+            #[inline(always)]
+            |walk| {
+                let mut best = ClosestHit::least();
+                closest(walk, &mut best);
+                let hit = best.hit?;
+                Some((hit, self.geometry.point_of(walk.ray, ray.source(), &hit, need)))
+            },
+        )?
+    }
+
+    /// Whether anything is hit.
+    pub fn any(&self, ray: &Ray) -> bool {
+        self.geometry.walk_roughly(ray, self.mask, any).unwrap_or(false)
+    }
+
+    /// Whether there is a hit for which `accept` returns true. The hits come in no particular
+    /// order, each at most once, and nothing is allocated.
+    ///
+    /// A result that must not depend on the order (a product of rounded numbers) is better computed
+    /// from [`Masked::all_into`].
+    pub fn any_where(&self, ray: &Ray, mut accept: impl FnMut(&Hit) -> bool) -> bool {
+        let visit =
+            &mut |hit: &Hit| if accept(hit) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        self.geometry.walk(ray, self.mask, |walk| each(walk, visit)).is_some_and(|flow| flow.is_break())
+    }
+
+    /// Every crossing, once, ascending in the order of [`Hit::order`].
+    pub fn all(&self, ray: &Ray) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.all_into(ray, &mut hits);
+        hits
+    }
+
+    /// [`Masked::all`] into a buffer that is cleared first and can be reused.
+    pub fn all_into(&self, ray: &Ray, hits: &mut Vec<Hit>) {
+        hits.clear();
+        self.geometry.walk(ray, self.mask, |walk| {
+            each(walk, &mut |hit| {
+                hits.push(*hit);
+                ControlFlow::Continue(())
+            })
+        });
+        // Stable: two crossings of one surface may round to one t, and it reported them in their
+        // exact order.
+        hits.sort_by(Hit::order);
+    }
+
+    /// The intervals of the ray inside the union of all solids: merged, ascending; open surfaces
+    /// are ignored.
+    ///
+    /// A ray that starts inside has `t_in = t_min` and no `object_in`. Unbounded solids are
+    /// included. Touches have no length and are left out.
+    pub fn spans(&self, ray: &Ray) -> Vec<Span> {
+        self.tracks(ray).map_or_else(Vec::new, |tracks| tracks.merge(ray.t_min, ray.t_max))
+    }
+
+    /// The intervals of the ray inside each object: which solid it is in, from where to where.
+    ///
+    /// An object's own solids are merged as in [`Masked::spans`]; those of different objects are
+    /// not, so where objects overlap each has its own interval. Ascending by `t_in`, then by
+    /// object.
+    ///
+    /// ```
+    /// use durer_geometry::Geometry;
+    /// use durer_math::{Point3, Ray, Vec3};
+    /// use durer_surfaces::Sphere;
+    ///
+    /// let ball = |x: f64| Sphere::new(Point3::new(x, 0.0, 0.0), 1.0);
+    /// let scene = Geometry::builder().with(ball(0.0)?).with(ball(1.0)?).build()?;
+    /// let spans = scene.spans_by_object(&Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X));
+    /// let stretches: Vec<_> = spans.iter().map(|s| (s.object.0, s.span.t_in, s.span.t_out)).collect();
+    /// assert_eq!(stretches, [(0, 2.0, 4.0), (1, 3.0, 5.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn spans_by_object(&self, ray: &Ray) -> Vec<ObjectSpan> {
+        self.tracks(ray).map_or_else(Vec::new, |tracks| tracks.merge_by_object(ray.t_min, ray.t_max))
+    }
+
+    /// The crossings of all solids; `None` if the ray is not valid.
+    fn tracks(&self, ray: &Ray) -> Option<Tracks> {
+        self.geometry.walk(ray, self.mask, |walk| {
+            let mut tracks = Tracks::new(self.mask);
+            spans(walk, &LocalPoint::new(ray.origin), &mut tracks);
+            tracks
+        })
     }
 }
 

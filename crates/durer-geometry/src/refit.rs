@@ -49,7 +49,7 @@ impl Geometry {
     /// use durer_math::{Point3, Ray, Vec3};
     /// use durer_surfaces::Sphere;
     ///
-    /// let mut scene = Geometry::builder().add(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
+    /// let mut scene = Geometry::builder().with(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
     /// let higher = Sphere::new(Point3::new(0.0, 0.0, 3.0), 1.0)?;
     /// scene.refit(|_, _, _: &Sphere| Some(higher))?;
     /// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, 9.0), -Vec3::Z)).unwrap();
@@ -91,7 +91,7 @@ impl Geometry {
     /// use durer_math::{Point3, Ray, Vec3};
     /// use durer_surfaces::Sphere;
     ///
-    /// let scene = Geometry::builder().add(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
+    /// let scene = Geometry::builder().with(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
     /// let higher = Sphere::new(Point3::new(0.0, 0.0, 3.0), 1.0)?;
     /// let scene = scene.rebuild(|_, _, _: &Sphere| Some(higher))?;
     /// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, 9.0), -Vec3::Z)).unwrap();

@@ -98,20 +98,20 @@ mod tests {
         let ball = Sphere::new(Point3::ORIGIN, 1.0).unwrap();
         let block = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)).unwrap();
         let at = |x: f64| Affine::translation(Vec3::new(x, 0.0, 0.0)).unwrap();
-        let pair = Arc::new(Geometry::builder().add(ball).add(block).build().unwrap());
+        let pair = Arc::new(Geometry::builder().with(ball).with(block).build().unwrap());
         let row = |count: u32| {
             let mut builder = Geometry::builder();
             (0..count).for_each(|i| {
                 builder.instance(&pair, at(f64::from(i)), u32::MAX);
             });
-            Arc::new(builder.add(ball).build().unwrap())
+            Arc::new(builder.with(ball).build().unwrap())
         };
         let (three, five) = (row(3), row(5));
         let mut builder = Geometry::builder();
         for (i, rows) in [&three, &five, &five].into_iter().enumerate() {
             builder.instance(rows, at(i as f64), u32::MAX);
         }
-        let all = builder.add(block).instance(&pair, at(9.0), u32::MAX).build().unwrap();
+        let all = builder.with(block).with_instance(&pair, at(9.0), u32::MAX).build().unwrap();
         let inventory = all.inventory();
         assert_eq!(inventory.geometries, 4);
         assert_eq!(inventory.placed, (3 * 2 + 1) + 2 * (5 * 2 + 1) + 1 + 2);

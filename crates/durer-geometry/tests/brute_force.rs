@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The content of a hit without its place in memory.
 fn public(hit: &Hit) -> impl PartialEq + core::fmt::Debug + use<> {
-    let numbers = [hit.t, hit.t_lo, hit.t_hi, hit.uv[0], hit.uv[1]].map(f64::to_bits);
+    let numbers = [hit.t, hit.t_lo, hit.t_hi, hit.tag[0], hit.tag[1]].map(f64::to_bits);
     (numbers, hit.object, hit.primitive, hit.instance, hit.face, hit.sign, hit.kind)
 }
 
@@ -85,7 +85,8 @@ fn trees_of_every_quality() {
     for (settings, most) in [(Settings::FAST, 0), (Settings::GOOD, 0), (Settings::BEST, 1000)] {
         for with_ground in [false, true] {
             let (tree, flat) = both(|builder| {
-                fill_with_triangles(builder.settings(settings), &mut Dice(51));
+                *builder = core::mem::take(builder).settings(settings);
+                fill_with_triangles(builder, &mut Dice(51));
                 if with_ground {
                     builder.add(ground());
                 }
@@ -102,10 +103,10 @@ fn trees_of_every_quality() {
 #[test]
 fn all_instruction_sets() {
     let build = |isa: Isa, flat: bool| {
-        let mut builder = Geometry::builder();
-        fill(builder.isa(isa), &mut Dice(9), 150, true);
+        let mut builder = Geometry::builder().isa(isa);
+        fill(&mut builder, &mut Dice(9), 150, true);
         if flat {
-            builder.without_tree();
+            builder = builder.without_tree();
         }
         builder.build().unwrap()
     };
@@ -127,28 +128,28 @@ fn nested_instances() {
     let (tree, flat) = {
         let build = |flat: bool| {
             let mut dice = Dice(21);
-            let finish = |builder: &mut Builder| {
+            let finish = |mut builder: Builder| {
                 if flat {
-                    builder.without_tree();
+                    builder = builder.without_tree();
                 }
                 Arc::new(builder.build().unwrap())
             };
             let mut inner = Geometry::builder();
             fill(&mut inner, &mut dice, 12, false);
-            let inner = finish(&mut inner);
+            let inner = finish(inner);
             let mut middle = Geometry::builder();
             fill(&mut middle, &mut dice, 3, false);
             for _ in 0..5 {
                 middle.instance(&inner, dice.affine(), u32::MAX);
             }
-            let middle = finish(&mut middle);
+            let middle = finish(middle);
             let mut outer = Geometry::builder();
             fill(&mut outer, &mut dice, 10, false);
             for _ in 0..6 {
                 outer.instance(&middle, dice.affine(), u32::MAX);
             }
             outer.add(ground());
-            finish(&mut outer)
+            finish(outer)
         };
         (build(false), build(true))
     };
@@ -184,10 +185,10 @@ fn batches_of(things: usize, count: usize) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             (
-                world.closest_batch(&rays),
-                world.any_batch(&rays),
-                world.all_batch(&rays),
-                world.spans_batch(&rays),
+                world.batch(&rays).closest(),
+                world.batch(&rays).any(),
+                world.batch(&rays).all(),
+                world.batch(&rays).spans(),
             )
         })
     };
@@ -282,7 +283,7 @@ fn bundles_of_rays() {
             if !ray.is_valid() || ray.t_min != 0.0 {
                 continue;
             }
-            let seen = tree.first_visible(&ray, u32::MAX, Need::POINT);
+            let seen = tree.masked(u32::MAX).first_visible(&ray, Need::POINT);
             assert_eq!(seen.is_some(), tree.any(&ray), "{ray:?}");
             // Brackets may be wider, but they contain the same crossing.
             if let (Some((seen, _)), Some(closest)) = (&seen, tree.closest(&ray)) {
@@ -318,7 +319,7 @@ fn bundles_that_leave_a_plane() {
     builder.add(ground());
     let world = builder.build().unwrap();
     let down = Ray::new(Point3::new(0.3, 5.0, 0.2), -Vec3::Y);
-    let (_, point) = world.first_visible(&down, u32::MAX, Need::POINT).unwrap();
+    let (_, point) = world.masked(u32::MAX).first_visible(&down, Need::POINT).unwrap();
     for (height, beam_is_empty) in [(9.0, true), (-9.0, true), (0.0, false)] {
         let target = point.p + Vec3::new(1.0, height, 2.0);
         let ray = point.spawn_to(target);
@@ -371,7 +372,7 @@ fn asked(
     let count = Arc::new(AtomicU64::new(0));
     let mut csg = Compound::builder();
     let whole = body(&mut csg, &|solid| Counted(solid, Arc::clone(&count)));
-    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let scene = Geometry::builder().with_compound(csg.build(whole).unwrap()).build().unwrap();
     let first: Vec<_> = rays.iter().map(|ray| scene.closest(ray)).collect();
     let asked = count.load(Ordering::Relaxed);
     let mut met = 0;

@@ -250,7 +250,7 @@ fn body(leaves: Vec<Leaf>, expr: Expr) -> Body {
     let mut csg = Compound::builder();
     let mut parts: Vec<Option<Part>> = leaves.iter().map(|l| Some(l.add(&mut csg))).collect();
     let whole = expr.build(&mut parts, &mut csg);
-    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let scene = Geometry::builder().with_compound(csg.build(whole).unwrap()).build().unwrap();
     let witnesses = leaves.iter().map(Leaf::witness).collect();
     let has_inner_faces = format!("{expr:?}").contains("AnyWithInner");
     Body { scene, leaves, witnesses, expr, has_inner_faces }
@@ -632,7 +632,7 @@ fn differences_nest_a_hundred_deep() {
         let next = csg.leaf(ball(i)).unwrap();
         whole = if i % 2 == 1 { csg.difference(whole, [next]) } else { csg.union([whole, next]) };
     }
-    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let scene = Geometry::builder().with_compound(csg.build(whole).unwrap()).build().unwrap();
     let hits = scene.all(&Ray::new(p(-200.0, 0.0, 0.0), Vec3::X));
     assert_eq!(hits.len(), 202);
     assert!(hits.iter().enumerate().all(|(i, h)| h.sign == if i % 2 == 0 { -1 } else { 1 }));
@@ -645,7 +645,7 @@ fn differences_nest_a_hundred_deep() {
         let outer = csg.leaf(ball(i)).unwrap();
         whole = csg.difference(outer, [whole]);
     }
-    let scene = Geometry::builder().add_compound(csg.build(whole).unwrap()).build().unwrap();
+    let scene = Geometry::builder().with_compound(csg.build(whole).unwrap()).build().unwrap();
     assert_eq!(scene.all(&Ray::new(p(-200.0, 0.0, 0.0), Vec3::X)).len(), 202);
 }
 
@@ -694,7 +694,7 @@ fn rays_leave_a_body_on_the_side_they_are_asked_for() {
                 let on = |w: &ExactBody| {
                     w.faces.iter().filter(|f| truth[i].t.sign_of(&f.along(&line)).is_eq()).count()
                 };
-                let edge = on(&body.witnesses[hit.primitive as usize]) > 1;
+                let edge = on(&body.witnesses[hit.primitive.0 as usize]) > 1;
                 if far && slant > 1e-3 && !edge {
                     let signs =
                         |hits: &[durer_geometry::Hit]| hits.iter().map(|h| h.sign).collect::<Vec<_>>();

@@ -347,8 +347,8 @@ fn ranges_that_end_beside_a_crossing_are_told_by_narrow_brackets() {
     let parts =
         [(-0.3, 1.0), (0.4, 0.7)].map(|(x, strength)| component(Point3::new(x, 0.0, 0.0), 1.0, strength));
     let worlds = [
-        Geometry::builder().add(Placed::new(JuliaSet::new(&julia).unwrap(), place)).build().unwrap(),
-        Geometry::builder().add(Placed::new(Blob::new(0.3, &parts).unwrap(), place)).build().unwrap(),
+        Geometry::builder().with(Placed::new(JuliaSet::new(&julia).unwrap(), place)).build().unwrap(),
+        Geometry::builder().with(Placed::new(Blob::new(0.3, &parts).unwrap(), place)).build().unwrap(),
     ];
     let mut beside = 0;
     for world in &worlds {

@@ -195,14 +195,15 @@ fn leak_nowhere(bodies: &[(&str, Body)], settings: &Settings) -> u64 {
             let (data, centre) = moved(body, scale, by);
             let room = body.room * scale;
             let mesh = Mesh::new(data.clone()).unwrap();
-            let world = Geometry::builder().settings(*settings).add(mesh).build().unwrap();
+            let world = Geometry::builder().settings(*settings).with(mesh).build().unwrap();
             let stats = world.stats();
             shared += stats.tree.entries as u64 - stats.primitives;
             shoot(&world, &data, centre, room, part(32), &format!("{name} times {scale} at {by}"));
             rays += 1000 * soak.unwrap_or(1) * (32 + 8);
             // The same mesh, placed: now the rays have errors, and take several times as long.
             let place = Affine::rotation(Vec3::new(1.0, 2.0, -0.5), 0.7).unwrap();
-            let placed = Geometry::builder().instance(&Arc::new(world), place, EVERYTHING).build().unwrap();
+            let placed =
+                Geometry::builder().with_instance(&Arc::new(world), place, EVERYTHING).build().unwrap();
             let mut data = data;
             data.vertices.iter_mut().for_each(|v| *v = place.point(*v));
             shoot(

@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The content of a hit without its place in memory.
 fn said(hit: &Hit) -> (u32, u32, u32, i8, [u64; 3]) {
     let Hit { t, t_lo, t_hi, object, primitive, instance, sign, .. } = *hit;
-    (object, primitive, instance, sign, [t, t_lo, t_hi].map(f64::to_bits))
+    (object.0, primitive.0, instance, sign, [t, t_lo, t_hi].map(f64::to_bits))
 }
 
 fn assert_same_answers(a: &Geometry, b: &Geometry, rays: &[Ray]) -> usize {
@@ -56,7 +56,8 @@ fn ball(dice: &mut Dice) -> Sphere {
 #[test]
 fn what_moved_is_met_where_it_is() {
     let mut dice = Dice(31);
-    let small = Arc::new(Geometry::builder().add(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
+    let small =
+        Arc::new(Geometry::builder().with(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
     let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();
     for (flat, settings) in
         [(false, Settings::GOOD), (false, Settings::FAST), (false, Settings::BEST), (true, Settings::GOOD)]
@@ -67,8 +68,7 @@ fn what_moved_is_met_where_it_is() {
             let new: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
             let (mesh, bent) = (drum(&mut Dice(seed), sides, 0.9), drum(&mut Dice(seed + 1), sides, 1.3));
             let build = |balls: &[Sphere], mesh: &Mesh| {
-                let mut builder = Geometry::builder();
-                builder.settings(settings);
+                let mut builder = Geometry::builder().settings(settings);
                 balls.iter().for_each(|b| {
                     builder.add(*b);
                 });
@@ -76,7 +76,7 @@ fn what_moved_is_met_where_it_is() {
                 builder.add(AxisBox::new(Point3::new(3.0, 3.0, 3.0), Point3::new(4.0, 4.0, 4.0)).unwrap());
                 builder.instance(&small, map, u32::MAX);
                 if flat {
-                    builder.without_tree();
+                    builder = builder.without_tree();
                 }
                 builder.build().unwrap()
             };
@@ -103,7 +103,7 @@ fn what_moved_is_met_where_it_is() {
 fn what_cannot_be_followed_is_named_and_changes_nothing() {
     let mut dice = Dice(32);
     let mesh = drum(&mut dice, 8, 1.0);
-    let build = || Geometry::builder().add(ball(&mut Dice(33))).add(mesh.clone()).build().unwrap();
+    let build = || Geometry::builder().with(ball(&mut Dice(33))).with(mesh.clone()).build().unwrap();
     let mut geometry = build();
     let mut data = mesh.data().clone();
     // A face whose area becomes zero is no part any more.
@@ -122,7 +122,8 @@ fn what_cannot_be_followed_is_named_and_changes_nothing() {
 #[test]
 fn what_is_built_again_answers_as_what_is_built_anew() {
     let mut dice = Dice(34);
-    let small = Arc::new(Geometry::builder().add(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
+    let small =
+        Arc::new(Geometry::builder().with(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
     let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();
     let qualities = [Some(Settings::GOOD), Some(Settings::FAST), Some(Settings::BEST), None];
     for (settings, sides) in
@@ -132,8 +133,8 @@ fn what_is_built_again_answers_as_what_is_built_anew() {
         let mut planes = [Plane::new(Vec3::Y, -5.0).unwrap(), Plane::new(Vec3::X, -6.0).unwrap()];
         let mut mesh = drum(&mut dice, sides, 0.9);
         let build = |balls: &[Sphere], planes: &[Plane], mesh: &Mesh| {
-            let mut builder = Geometry::builder();
-            match settings {
+            let builder = Geometry::builder();
+            let mut builder = match settings {
                 Some(settings) => builder.settings(settings),
                 None => builder.without_tree(),
             };

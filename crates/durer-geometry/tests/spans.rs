@@ -67,7 +67,7 @@ fn spans_are_where_the_solids_are() {
 
 #[test]
 fn ranges_that_begin_and_end_inside() {
-    let world = Geometry::builder().add(Sphere::new(Point3::ORIGIN, 2.0).unwrap()).build().unwrap();
+    let world = Geometry::builder().with(Sphere::new(Point3::ORIGIN, 2.0).unwrap()).build().unwrap();
     let ray = |a: f64, b: f64| Ray::new(Point3::ORIGIN, Vec3::X).with_range(a, b);
     let spans = |a: f64, b: f64| {
         let all = world.spans(&ray(a, b));
@@ -136,7 +136,8 @@ fn ranges_that_begin_at_a_touch() {
         let map =
             Affine::new([[0.5, 0.25, 0.0], [0.0, 2.0, 0.0], [0.0, -1.0, 4.0]], Point3::new(2.0, 3.0, 5.0))
                 .unwrap();
-        let outer = Geometry::builder().instance(&inner, map, durer_geometry::EVERYTHING).build().unwrap();
+        let outer =
+            Geometry::builder().with_instance(&inner, map, durer_geometry::EVERYTHING).build().unwrap();
         (inner, outer, map)
     };
     let check = |(inner, outer, map): &(Arc<Geometry>, Geometry, Affine),
@@ -175,8 +176,8 @@ fn ranges_that_begin_at_a_touch() {
 fn spans_do_not_depend_on_the_origin() {
     fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
         let solid = DynSurface::new(solid.clone());
-        let turned = Geometry::builder().add(Complement(solid.clone())).build().unwrap();
-        let world = Geometry::builder().add(solid).build().unwrap();
+        let turned = Geometry::builder().with(Complement(solid.clone())).build().unwrap();
+        let world = Geometry::builder().with(solid).build().unwrap();
         for _ in 0..1500 {
             let (a, b) = (dice.grid(), dice.grid());
             if a == b {

@@ -57,13 +57,13 @@ fn common_with_cube(o: [i64; 3], d: [i64; 3]) -> Option<(f64, f64, bool)> {
 
 fn worlds(n: u32) -> Vec<(Geometry, Affine)> {
     let one = || Affine::translation(Vec3::ZERO).unwrap();
-    let plain = Geometry::builder().add(cube(n)).build().unwrap();
-    let bare = Geometry::builder().without_tree().add(cube(n)).build().unwrap();
+    let plain = Geometry::builder().with(cube(n)).build().unwrap();
+    let bare = Geometry::builder().without_tree().with(cube(n)).build().unwrap();
     // The stored matrix is whole: images of whole rays are exact.
     let rows = [[0.0, 0.0, 2.0], [3.0, 0.0, 1.0], [0.0, -1.0, 5.0]];
     let map = Affine::new(rows, Point3::new(40.0, -7.0, 3.0)).unwrap();
-    let inner = Arc::new(Geometry::builder().add(cube(n)).build().unwrap());
-    let placed = Geometry::builder().instance(&inner, map, EVERYTHING).build().unwrap();
+    let inner = Arc::new(Geometry::builder().with(cube(n)).build().unwrap());
+    let placed = Geometry::builder().with_instance(&inner, map, EVERYTHING).build().unwrap();
     vec![(plain, one()), (bare, one()), (placed, map)]
 }
 
@@ -130,7 +130,8 @@ fn batches_and_ranges_give_the_same_touches() {
             rays.push(Ray::new(Point3::new(y, -5.0 * d, x), Vec3::Y * d));
         }
     }
-    let (firsts, hits, every) = (world.closest_batch(&rays), world.any_batch(&rays), world.all_batch(&rays));
+    let (firsts, hits, every) =
+        (world.batch(&rays).closest(), world.batch(&rays).any(), world.batch(&rays).all());
     for (i, ray) in rays.iter().enumerate() {
         assert_eq!((firsts[i], hits[i]), (world.closest(ray), world.any(ray)));
         assert_eq!(every.of(i), world.all(ray));
@@ -151,7 +152,7 @@ fn spans_by_object_of_bodies_that_overlap() {
     let mut builder = Geometry::builder();
     builder.add_as(cube(2), ObjectId(4), PrimitiveId(0), EVERYTHING);
     builder.add_as(cube(1), ObjectId(2), PrimitiveId(0), EVERYTHING);
-    let inner = Arc::new(Geometry::builder().add(cube(1)).build().unwrap());
+    let inner = Arc::new(Geometry::builder().with(cube(1)).build().unwrap());
     let map = Affine::translation(Vec3::X).unwrap();
     builder.instance_as(&inner, map, ObjectId(7), PrimitiveId(0), EVERYTHING);
     // A second body of object 7 that touches its first one.
@@ -161,7 +162,7 @@ fn spans_by_object_of_bodies_that_overlap() {
     let spans = |x: f64, y: f64, t_max: f64| -> Vec<_> {
         let ray = Ray::new(Point3::new(x, y, 0.3), Vec3::X).with_range(0.0, t_max);
         let found = world.spans_by_object(&ray);
-        assert_eq!(world.spans_by_object_batch(&[ray]).of(0), found);
+        assert_eq!(world.batch(&[ray]).spans_by_object().of(0), found);
         found
             .iter()
             .map(|s| {

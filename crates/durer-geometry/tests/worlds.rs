@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Dice, fill, ground, object, rays};
-use durer_geometry::{BuildError, EVERYTHING, Geometry, PrimitiveId};
+use durer_geometry::{BuildError, EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     AxisBox, Clip, DynSurface, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric,
@@ -28,13 +28,14 @@ fn nothing() {
     assert!(world.bounds().is_empty());
     assert!(world.explain(&ray).to_string().contains("meets nothing"));
     // An instance of an empty geometry is empty.
-    let twice = Geometry::builder().instance(&Arc::new(world), Affine::IDENTITY, EVERYTHING).build().unwrap();
+    let twice =
+        Geometry::builder().with_instance(&Arc::new(world), Affine::IDENTITY, EVERYTHING).build().unwrap();
     assert!(!twice.any(&ray) && twice.bounds().is_empty());
 }
 
 #[test]
 fn unbounded_things_only() {
-    let world = Geometry::builder().add(ground()).build().unwrap();
+    let world = Geometry::builder().with(ground()).build().unwrap();
     assert_eq!(world.stats().beside, 1);
     let down = Ray::new(Point3::ORIGIN, -Vec3::Y);
     assert_eq!(world.closest(&down).map(|h| (h.t, h.sign)), Some((4.0, -1)));
@@ -55,7 +56,7 @@ fn unbounded_things_only() {
 
 #[test]
 fn invalid_rays_miss_and_are_counted() {
-    let world = Geometry::builder().add(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap();
+    let world = Geometry::builder().with(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap();
     let broken = [
         Ray::new(Point3::new(f64::NAN, 0.0, 0.0), Vec3::X),
         Ray::new(Point3::ORIGIN, Vec3::ZERO),
@@ -83,7 +84,7 @@ fn a_million_nested_duplicates() {
     assert!(stats.tree.depth <= 8);
     // All have the same `t`; the first object wins.
     let hit = world.closest(&along_x(-5.0)).unwrap();
-    assert_eq!((hit.t, hit.object), (4.0, 0));
+    assert_eq!((hit.t, hit.object), (4.0, ObjectId(0)));
     let all = world.all(&along_x(-5.0));
     assert_eq!(all.len(), 2_000_000);
     assert!(all.is_sorted_by(|a, b| a.order(b).is_lt()));
@@ -107,7 +108,7 @@ fn numbers_are_what_they_were_asked_to_be() {
         .all(&along_x(-20.0))
         .iter()
         .filter(|h| h.sign < 0)
-        .map(|h| (h.object, h.primitive, h.instance))
+        .map(|h| (h.object.0, h.primitive.0, h.instance))
         .collect();
     assert_eq!(seen, [(0, 0, 0), (107, 1003, 1), (108, 1000, 1), (116, 3, 2), (117, 0, 2)]);
 }
@@ -124,14 +125,14 @@ fn masks_hide_surfaces_and_instances() {
     builder.instance(&inner, Affine::translation(Vec3::X * 20.0).unwrap(), 0b001);
     let world = builder.build().unwrap();
     let ray = along_x(-5.0);
-    let t = |mask: u32| world.closest_masked(&ray, mask).map(|h| h.t);
+    let t = |mask: u32| world.masked(mask).closest(&ray).map(|h| h.t);
     assert_eq!((t(0b01), t(0b10), t(0b11), t(0b100)), (Some(24.0), Some(18.0), Some(14.0), None));
     assert_eq!(t(0), None);
     for mask in 0..8 {
-        let all = world.all_masked(&ray, mask);
+        let all = world.masked(mask).all(&ray);
         assert_eq!(all.first().map(|h| h.t), t(mask));
-        assert_eq!(world.any_masked(&ray, mask), !all.is_empty());
-        assert_eq!(world.spans_masked(&ray, mask).len(), all.len() / 2);
+        assert_eq!(world.masked(mask).any(&ray), !all.is_empty());
+        assert_eq!(world.masked(mask).spans(&ray).len(), all.len() / 2);
     }
 }
 
@@ -143,15 +144,15 @@ fn a_filter_sees_every_hit_and_may_stop() {
     let mut buffer = Vec::new();
     for ray in rays(&mut Dice(2), 100) {
         let mut seen = Vec::new();
-        assert!(!world.any_where(&ray, EVERYTHING, |hit| {
+        assert!(!world.masked(EVERYTHING).any_where(&ray, |hit| {
             seen.push(*hit);
             false
         }));
         seen.sort_by(durer_geometry::Hit::order);
-        world.all_into(&ray, EVERYTHING, &mut buffer);
+        world.masked(EVERYTHING).all_into(&ray, &mut buffer);
         assert_eq!(seen, buffer);
         let mut calls = 0;
-        let stopped = world.any_where(&ray, EVERYTHING, |_| {
+        let stopped = world.masked(EVERYTHING).any_where(&ray, |_| {
             calls += 1;
             true
         });
@@ -169,15 +170,15 @@ fn a_cone_clipped_at_its_rim_is_entered_first() {
     );
     let base = Point3::new(2048.0, 5120.0, 7168.0);
     let cone = Frustum::new(base, 39936.0, Point3::new(12288.0, 10240.0, -3072.0), 39936.0).unwrap();
-    let world = Geometry::builder().add(DynSurface::new(Placed::new(cone, map.unwrap()))).build().unwrap();
+    let world = Geometry::builder().with(DynSurface::new(Placed::new(cone, map.unwrap()))).build().unwrap();
     let origin = Point3::new(316870.8445767619, -19390.6469906667, -125622.15542323812);
     let ray = Ray::new(origin, Vec3::new(-0.5, -0.875, -0.5));
     let all = world.all(&ray);
     assert_eq!(all.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
     assert_eq!(all[0].t, all[1].t);
     assert_eq!(world.closest(&ray), Some(all[0]));
-    assert_eq!(world.closest_batch(&[ray]), [Some(all[0])]);
-    assert_eq!(world.all_batch(&[ray]).of(0), all);
+    assert_eq!(world.batch(&[ray]).closest(), [Some(all[0])]);
+    assert_eq!(world.batch(&[ray]).all().of(0), all);
 }
 
 /// Found by the oracle in `tests/outside`: the ray leaves the first of these, a cylinder clipped
@@ -192,20 +193,21 @@ fn what_is_met_beyond_all_numbers_is_not_met() {
         [[0.00390625, 0.0, 0.0], [0.0, 0.001953125, 0.0], [0.0, 0.0, 128.0]],
         Point3::new(0.0, 1000.0, 1000.0),
     );
-    let first = Geometry::builder().add(DynSurface::new(Placed::new(clipped, map.unwrap()))).build().unwrap();
+    let first =
+        Geometry::builder().with(DynSurface::new(Placed::new(clipped, map.unwrap()))).build().unwrap();
     let origin = Point3::new(0.0015024038461538462, 1000.0090144230769, 1000.0);
     let first_ray = Ray::new(origin, Vec3::new(5e-324, 0.0, 0.6141631519109444));
     // x² + y² <= 1, and a half-space in its place.
     let pipe = Quadric::new([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
-    let second = Geometry::builder().add(DynSurface::new(pipe.clone())).build().unwrap();
-    let third = Geometry::builder().add(DynSurface::new(Plane::new(Vec3::X, 1.0).unwrap())).build().unwrap();
+    let second = Geometry::builder().with(DynSurface::new(pipe.clone())).build().unwrap();
+    let third = Geometry::builder().with(DynSurface::new(Plane::new(Vec3::X, 1.0).unwrap())).build().unwrap();
     let whole = (f64::NEG_INFINITY, f64::INFINITY);
     let along = |x: f64| Ray::new(Point3::ORIGIN, Vec3::new(x, 0.0, 1.0)).with_range(whole.0, whole.1);
     for (world, ray) in
         [(&first, first_ray), (&second, along(5e-324)), (&second, along(-1e-310)), (&third, along(5e-324))]
     {
         assert_eq!((world.all(&ray), world.closest(&ray), world.any(&ray)), (vec![], None, false), "{ray:?}");
-        assert!(!world.any_where(&ray, EVERYTHING, |_| true));
+        assert!(!world.masked(EVERYTHING).any_where(&ray, |_| true));
     }
     for world in [&second, &third] {
         let spans = world.spans(&along(5e-324));
@@ -238,7 +240,7 @@ fn a_box_clipped_at_its_corner_is_entered_first() {
         Affine::new([[8.0, -4.0, 1.0], [-1.0, -4.0, -8.0], [4.0, 7.0, -4.0]], Point3::new(1.0, -7.0, 0.0));
     let corners = (Point3::new(0.0, -1.0, 0.0), Point3::new(2.0, 0.0, 1.0));
     let world = Geometry::builder()
-        .add(Placed::new(AxisBox::new(corners.0, corners.1).unwrap(), map.unwrap()))
+        .with(Placed::new(AxisBox::new(corners.0, corners.1).unwrap(), map.unwrap()))
         .build()
         .unwrap();
     let origin = Point3::new(1.485398358671441, -14.74269917933572, -1.169690972692925);
@@ -287,7 +289,8 @@ fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
             let all = world.all(&ray);
             assert_eq!(world.closest(&ray), all.first().copied(), "{ray:?}");
             for object in 0..world.objects() {
-                let one: Vec<_> = all.iter().filter(|h| h.object == object && h.sign != 0).collect();
+                let one: Vec<_> =
+                    all.iter().filter(|h| h.object == ObjectId(object) && h.sign != 0).collect();
                 for pair in one.windows(2) {
                     assert_eq!(pair[0].sign, -pair[1].sign, "{ray:?}: {one:?}");
                     tied += usize::from(pair[0].t == pair[1].t);
@@ -309,10 +312,11 @@ fn an_instance_is_the_placed_surface() {
         let (outer, inner) = (dice.affine(), dice.affine());
         let ball = ball(0.3, -0.2, 0.1, 0.9);
         let placed = Placed::new(Placed::new(ball, inner), outer);
-        let direct = Geometry::builder().add(placed).build().unwrap();
-        let innermost = Arc::new(Geometry::builder().add(ball).build().unwrap());
-        let middle = Arc::new(Geometry::builder().instance(&innermost, inner, EVERYTHING).build().unwrap());
-        let world = Geometry::builder().instance(&middle, outer, EVERYTHING).build().unwrap();
+        let direct = Geometry::builder().with(placed).build().unwrap();
+        let innermost = Arc::new(Geometry::builder().with(ball).build().unwrap());
+        let middle =
+            Arc::new(Geometry::builder().with_instance(&innermost, inner, EVERYTHING).build().unwrap());
+        let world = Geometry::builder().with_instance(&middle, outer, EVERYTHING).build().unwrap();
         let centre = outer.point(inner.point(Point3::new(0.3, -0.2, 0.1)));
         for _ in 0..25 {
             let origin = dice.point(20.0);
@@ -336,12 +340,14 @@ fn an_instance_is_the_placed_surface() {
 
 #[test]
 fn too_deep_is_refused() {
-    let mut world = Arc::new(Geometry::builder().add(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap());
+    let mut world = Arc::new(Geometry::builder().with(ball(0.0, 0.0, 0.0, 1.0)).build().unwrap());
     for _ in 0..8 {
-        world = Arc::new(Geometry::builder().instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap());
+        world = Arc::new(
+            Geometry::builder().with_instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap(),
+        );
     }
     assert!(world.any(&along_x(-5.0)));
-    let error = Geometry::builder().instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap_err();
+    let error = Geometry::builder().with_instance(&world, Affine::IDENTITY, EVERYTHING).build().unwrap_err();
     assert_eq!(error, BuildError::TooDeep { depth: 9, limit: 8 });
     // 2^33 placements exceed the numbers.
     let mut many = Arc::new(Geometry::builder().build().unwrap());
@@ -394,10 +400,10 @@ fn the_faces_of_a_mesh_are_primitives() {
         let (a, b) = (dice.vector(0.99), dice.vector(0.99));
         // From a point inside outward, both ways: one crossing each.
         let ray = Ray::new(a.to_point(), b).with_range(f64::NEG_INFINITY, f64::INFINITY);
-        let hits: Vec<_> = world.all(&ray).into_iter().filter(|h| h.object == 5).collect();
+        let hits: Vec<_> = world.all(&ray).into_iter().filter(|h| h.object == ObjectId(5)).collect();
         assert_eq!(hits.iter().map(|h| h.sign).collect::<Vec<_>>(), [-1, 1]);
         for hit in &hits {
-            assert!((40..52).contains(&hit.primitive));
+            assert!((40..52).contains(&hit.primitive.0));
             let p = world.resolve_with(&ray, hit, Need::POINT);
             assert!((p.p.to_vec().max_abs() - 1.0).abs() < 1e-12);
         }
@@ -433,7 +439,7 @@ fn spawned_rays_do_not_meet_where_they_start() {
             }
             // Through the ball: it starts inside and leaves once.
             let into = point.spawn(-point.ng.to_vec());
-            assert!(world.any(&into) || hit.object > 0);
+            assert!(world.any(&into) || hit.object > ObjectId(0));
             leaving += 1;
         }
     }
@@ -446,8 +452,8 @@ fn the_story_names_what_happened() {
     builder.add(ball(0.0, 0.0, 0.0, 1.0)).add(ball(3.0, 0.0, 0.0, 1.0)).add(ground());
     let inner = Arc::new(builder.build().unwrap());
     let world = Geometry::builder()
-        .add(ball(-8.0, 5.0, 0.0, 1.0))
-        .instance(&inner, Affine::IDENTITY, 1)
+        .with(ball(-8.0, 5.0, 0.0, 1.0))
+        .with_instance(&inner, Affine::IDENTITY, 1)
         .build()
         .unwrap();
     let ray = Ray::new(Point3::new(-5.0, 0.1, 0.0), Vec3::X);

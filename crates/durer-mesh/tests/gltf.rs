@@ -339,7 +339,7 @@ fn a_mesh_that_is_shown_often_is_built_once() -> Result<(), Box<dyn std::error::
         if let Some(hit) = a {
             hits += 1;
             let look = |of: &durer_scene::Lowered| {
-                let look = of.look_of(hit.object, hit.primitive).map(|l| of.looks[l.0 as usize].clone());
+                let look = of.look_of(hit.object.0, hit.primitive.0).map(|l| of.looks[l.0 as usize].clone());
                 look.map(|l| (l.texture, l.medium, l.is_clear))
             };
             assert!(look(&once) == look(&twice) && look(&once).is_some());

@@ -175,7 +175,7 @@ fn texture_coordinates_reach_the_hits() -> Result<(), Box<dyn std::error::Error>
         let uv = |x: f64, y: f64| {
             let ray = Ray::new(Point3::new(x, y, 5.0), -Vec3::Z);
             let hit = lowered.geometry.closest(&ray)?;
-            Some((hit.primitive, lowered.geometry.resolve(&ray, &hit).uv))
+            Some((hit.primitive.0, lowered.geometry.resolve(&ray, &hit).uv))
         };
         // A quarter of the way to the second corner, and half of the way from there to the third:
         // all small dyadic numbers.

@@ -102,11 +102,11 @@ impl Hits {
     }
 
     fn object<'py>(&self, py: Python<'py>) -> Column<'py, i64> {
-        self.column(py, NO_ID, |h| i64::from(h.object))
+        self.column(py, NO_ID, |h| i64::from(h.object.0))
     }
 
     fn primitive<'py>(&self, py: Python<'py>) -> Column<'py, i64> {
-        self.column(py, NO_ID, |h| i64::from(h.primitive))
+        self.column(py, NO_ID, |h| i64::from(h.primitive.0))
     }
 
     fn kind<'py>(&self, py: Python<'py>) -> Column<'py, u8> {
@@ -120,7 +120,7 @@ impl Hits {
     /// The kernel's own parameters: of triangles, barycentric b1 and b2.
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let mut rows = vec![[f64::NAN; 2]; self.rows()];
-        self.hits.iter().enumerate().for_each(|(i, hit)| rows[self.row(i)] = hit.uv);
+        self.hits.iter().enumerate().for_each(|(i, hit)| rows[self.row(i)] = hit.tag);
         rows_of(py, rows)
     }
 

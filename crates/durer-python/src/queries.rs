@@ -60,7 +60,7 @@ fn closest<'py>(
         let work = |range: std::ops::Range<usize>| {
             let rays = rays.of(range);
             let lines: Vec<_> = rays.iter().map(line).collect();
-            (lines, geometry.closest_batch(&rays), invalid(&rays))
+            (lines, geometry.batch(&rays).closest(), invalid(&rays))
         };
         run(py, rays.len(), How { threads, progress }, work, |(lines, found, invalid)| {
             let first = hits.lines.len() as u32;
@@ -93,12 +93,12 @@ fn closest_ids<'py>(
     with_rays(&origins, &directions, ranges.as_ref(), |rays| {
         let (mut objects, mut primitives) = (Vec::with_capacity(rays.len()), Vec::with_capacity(rays.len()));
         let mut any_touch = false;
-        let work = |range: std::ops::Range<usize>| geometry.closest_batch(&rays.of(range));
+        let work = |range: std::ops::Range<usize>| geometry.batch(&rays.of(range)).closest();
         run(py, rays.len(), How { threads, progress }, work, |found| {
             for hit in found {
                 any_touch |= hit.as_ref().is_some_and(|h| h.kind == RootKind::Grazing);
                 let (object, primitive) =
-                    hit.map_or((-1, -1), |h| (i64::from(h.object), i64::from(h.primitive)));
+                    hit.map_or((-1, -1), |h| (i64::from(h.object.0), i64::from(h.primitive.0)));
                 objects.push(object);
                 primitives.push(primitive);
             }
@@ -123,7 +123,7 @@ fn any<'py>(
         let (mut answers, mut bad) = (Vec::with_capacity(rays.len()), 0);
         let work = |range: std::ops::Range<usize>| {
             let rays = rays.of(range);
-            (geometry.any_batch(&rays), invalid(&rays))
+            (geometry.batch(&rays).any(), invalid(&rays))
         };
         run(py, rays.len(), How { threads, progress }, work, |(found, invalid)| {
             answers.extend(found);
@@ -151,7 +151,7 @@ fn all<'py>(
         let work = |range: std::ops::Range<usize>| {
             let rays = rays.of(range);
             let lines: Vec<_> = rays.iter().map(line).collect();
-            (lines, geometry.all_batch(&rays), invalid(&rays))
+            (lines, geometry.batch(&rays).all(), invalid(&rays))
         };
         run(py, rays.len(), How { threads, progress }, work, |(lines, found, invalid)| {
             let (first, before) = (hits.lines.len() as u32, hits.hits.len() as i64);
@@ -188,7 +188,7 @@ fn spans<'py>(
             let mut objects = Vec::new();
             let work = |range: std::ops::Range<usize>| {
                 let rays = rays.of(range);
-                (geometry.spans_by_object_batch(&rays), invalid(&rays))
+                (geometry.batch(&rays).spans_by_object(), invalid(&rays))
             };
             run(py, rays.len(), how, work, |(found, invalid)| {
                 spans.take(&found.offsets, found.items.iter().map(|s| s.span), invalid);
@@ -198,7 +198,7 @@ fn spans<'py>(
         } else {
             let work = |range: std::ops::Range<usize>| {
                 let rays = rays.of(range);
-                (geometry.spans_batch(&rays), invalid(&rays))
+                (geometry.batch(&rays).spans(), invalid(&rays))
             };
             run(py, rays.len(), how, work, |(found, invalid)| {
                 spans.take(&found.offsets, found.items.into_iter(), invalid);

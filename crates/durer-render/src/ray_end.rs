@@ -161,7 +161,7 @@ impl RayEnd {
     fn first_beyond(&self, geometry: &Geometry, ray: &Ray, mask: u32) -> Option<(Hit, SurfacePoint)> {
         let mut ray = *ray;
         loop {
-            let hit = geometry.closest_masked(&ray, mask)?;
+            let hit = geometry.masked(mask).closest(&ray)?;
             let point = geometry.resolve_with(&ray, &hit, Need::SHADING_NORMAL);
             if !self.is_at(&ray, &hit, &point) {
                 return Some((hit, point));
@@ -177,14 +177,14 @@ impl RayEnd {
 
     /// Whether a ray that ends here hits a surface that does not pass through its end.
     fn is_blocked(&self, geometry: &Geometry, ray: &Ray, mask: u32) -> bool {
-        geometry.any_where(ray, mask, |hit| {
+        geometry.masked(mask).any_where(ray, |hit| {
             !self.is_at(ray, hit, &geometry.resolve_with(ray, hit, Need::SHADING_NORMAL))
         })
     }
 
     /// The first hit of a ray that ends here; `None` if its surface passes through the end.
     fn first_before(&self, geometry: &Geometry, ray: &Ray, mask: u32) -> Option<(Hit, SurfacePoint)> {
-        let hit = geometry.closest_masked(ray, mask)?;
+        let hit = geometry.masked(mask).closest(ray)?;
         let point = geometry.resolve_with(ray, &hit, Need::SHADING_NORMAL);
         (!self.is_at(ray, &hit, &point)).then_some((hit, point))
     }

@@ -66,7 +66,7 @@ impl Channel {
         let byte = |x: f64| (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
         Some(match self {
             Self::Depth => Measure::Number(hit.t * length),
-            Self::Object => Measure::Values([f64::from(hit.object); 3], distinct(hit.object)),
+            Self::Object => Measure::Values([f64::from(hit.object.0); 3], distinct(hit.object.0)),
             Self::Bound => Measure::Number((hit.t_hi - hit.t_lo) * length),
             Self::Normal => {
                 let n = geometry.resolve(ray, &hit).ns.to_vec();

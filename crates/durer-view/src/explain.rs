@@ -41,7 +41,7 @@ fn attempt(session: &Session, pixel: (u32, u32)) -> Result<Option<Value>, String
     let explanation = geometry.explain(&ray);
     let names = names(&explanation);
     let mut crossings = Vec::new();
-    let has_more = geometry.any_where(&ray, durer_geometry::EVERYTHING, |hit| {
+    let has_more = geometry.masked(durer_geometry::EVERYTHING).any_where(&ray, |hit| {
         crossings.push(*hit);
         crossings.len() >= MOST_CROSSINGS
     });
@@ -52,7 +52,7 @@ fn attempt(session: &Session, pixel: (u32, u32)) -> Result<Option<Value>, String
     let tracer = PixelTracer::new(&stage.world, session.file.size(), stop);
     let Some(tree) = tracer.map_err(|e| e.to_string())?.ray_tree(pixel) else { return Ok(None) };
     let encoding = stage.world.encoding();
-    let place = |hit: &Hit| source::place(&stage.scene, lowered, hit.object, hit.primitive);
+    let place = |hit: &Hit| source::place(&stage.scene, lowered, hit.object.0, hit.primitive.0);
     Ok(Some(json!({
         "pixel": [pixel.0, pixel.1],
         "ray": { "origin": point(ray.origin), "direction": vector(ray.direction), "length": ray.direction.length() },
@@ -93,7 +93,7 @@ fn first_hit(
     names: &HashMap<(u32, u32), &'static str>,
 ) -> Value {
     let at = lowered.geometry.resolve(ray, hit);
-    let place = source::place(&stage.scene, lowered, hit.object, hit.primitive);
+    let place = source::place(&stage.scene, lowered, hit.object.0, hit.primitive.0);
     let mut value = crossing(stage, hit, names, place);
     let more = json!({
         "face": hit.face, "instance": hit.instance,
@@ -113,7 +113,7 @@ fn crossing(
     place: Option<Place>,
 ) -> Value {
     // The parts of a compound solid are known by their words in the text.
-    let name = names.get(&(hit.object, hit.primitive)).filter(|name| **name != "Compound");
+    let name = names.get(&(hit.object.0, hit.primitive.0)).filter(|name| **name != "Compound");
     let name = name.map(|name| (*name).to_owned()).or_else(|| source::word(stage, place));
     let kind = match hit.kind {
         RootKind::Simple => "simple",
@@ -121,7 +121,7 @@ fn crossing(
         RootKind::Cluster => "cluster",
     };
     json!({
-        "t": hit.t, "lo": hit.t_lo, "hi": hit.t_hi, "object": hit.object, "primitive": hit.primitive,
+        "t": hit.t, "lo": hit.t_lo, "hi": hit.t_hi, "object": hit.object.0, "primitive": hit.primitive.0,
         "sign": hit.sign, "kind": kind, "surface": name, "line": source::line(stage, place),
     })
 }

@@ -493,8 +493,8 @@ fn every_leaf_keeps_its_look() {
                 };
                 compared += 1;
                 let told = || format!("scene {seed}, {ray:?}\n{text}");
-                let alone = geometry.first_visible(&ray, mask::CAMERA, Need::SHADING_NORMAL);
-                let got = alone.map(|(hit, _)| (hit.t, look(&lowered, hit.object, hit.primitive)));
+                let alone = geometry.masked(mask::CAMERA).first_visible(&ray, Need::SHADING_NORMAL);
+                let got = alone.map(|(hit, _)| (hit.t, look(&lowered, hit.object.0, hit.primitive.0)));
                 let near = |a: f64, b: f64| (a - b).abs() <= 1e-7 * (1.0 + b.abs());
                 let agree = match (got, want) {
                     (Some(got), Some(want)) => near(got.0, want.0) && got.1 == want.1,
@@ -502,9 +502,9 @@ fn every_leaf_keeps_its_look() {
                 };
                 assert!(agree, "got {got:?}, want {want:?}: {}", told());
                 let together = hits[0].hit.lane(i).then(|| (hits[0].object[i], hits[0].primitive[i]));
-                let alone = alone.map(|(hit, _)| (hit.object, hit.primitive));
+                let alone = alone.map(|(hit, _)| (hit.object.0, hit.primitive.0));
                 assert_eq!(together, alone, "eight rays together: {}", told());
-                assert_eq!(geometry.any_masked(&ray, mask::SHADOW), shadow, "shadow: {}", told());
+                assert_eq!(geometry.masked(mask::SHADOW).any(&ray), shadow, "shadow: {}", told());
                 assert_eq!(dark[0].lane(i), shadow, "shadows of eight rays: {}", told());
             }
         }

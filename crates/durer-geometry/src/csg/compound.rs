@@ -23,7 +23,7 @@ use durer_surfaces::{Accelerate, LocalPoint, Side, Solidity};
 /// let cube = csg.leaf(AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0))?)?;
 /// let ball = csg.leaf(Sphere::new(Point3::ORIGIN, 1.25)?)?;
 /// let body = csg.difference(cube, [ball]); // eight corners of the cube
-/// let scene = Geometry::builder().add_compound(csg.build(body)?).build()?;
+/// let scene = Geometry::builder().with_compound(csg.build(body)?).build()?;
 ///
 /// assert!(scene.closest(&Ray::new(Point3::new(0.0, 0.0, -5.0), Vec3::Z)).is_none());
 /// let corner = scene.closest(&Ray::new(Point3::new(0.9, 0.9, -5.0), Vec3::Z)).unwrap();

@@ -232,7 +232,7 @@ impl Hits8 {
         self.ng.set_lane(i, point.ng.to_vec());
         self.ns.set_lane(i, point.ns.to_vec());
         self.off.0[i] = point.off;
-        (self.object[i], self.primitive[i]) = (hit.object, hit.primitive);
+        (self.object[i], self.primitive[i]) = (hit.object.0, hit.primitive.0);
         self.source.set_lane(i, point.source);
     }
 

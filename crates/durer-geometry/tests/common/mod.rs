@@ -106,7 +106,7 @@ pub(crate) fn both(fill: impl Fn(&mut Builder)) -> (Geometry, Geometry) {
         let mut builder = Geometry::builder();
         fill(&mut builder);
         if flat {
-            builder.without_tree();
+            builder = builder.without_tree();
         }
         builder.build().unwrap()
     };

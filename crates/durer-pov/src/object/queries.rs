@@ -356,7 +356,7 @@ impl Ready {
             let next = all.iter().map(|hit| (*hit, geometry.resolve(ray, hit)));
             (hit, found) = next.into_iter().find(|(_, found)| !starts_there(found.p, found.dp))?;
         }
-        let turned = match self.triangles.get(hit.primitive as usize) {
+        let turned = match self.triangles.get(hit.primitive.0 as usize) {
             None | Some(Triangle::Not) => found.ng,
             Some(Triangle::Opposite) => -found.ng,
             Some(Triangle::Smooth) => found.ns,

@@ -291,7 +291,7 @@ impl Lowering {
         }
     }
 
-    fn finish(mut self) -> Result<Lowered, LowerError> {
+    fn finish(self) -> Result<Lowered, LowerError> {
         let geometry = self.builder.build().map_err(|e| LowerErrorKind::from(e).at(None))?;
         let (looks, primitives) = self.table.finish();
         // Solids without bounds, such as a sky, enclose the others.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use durer_geometry::{EVERYTHING, Geometry, ObjectId, PrimitiveId};
+use durer_geometry::{Geometry, PrimitiveId};
 use durer_math::Affine;
 
 use super::{LowerErrorKind, Lowering, build, shapes};
@@ -51,9 +51,7 @@ impl Lowering {
             Some(geometry) => geometry,
             None => {
                 let surface = shapes::mesh(mesh)?;
-                let mut builder = Geometry::builder();
-                let geometry =
-                    Arc::new(builder.add_as(surface, ObjectId(0), PrimitiveId(0), EVERYTHING).build()?);
+                let geometry = Arc::new(Geometry::builder().with(surface).build()?);
                 self.shared.built.insert(Arc::as_ptr(mesh), Some(Arc::clone(&geometry)));
                 geometry
             }

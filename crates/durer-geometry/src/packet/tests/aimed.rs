@@ -57,7 +57,7 @@ fn rays_on_a_grid() {
 /// The object, primitive and face that a ray hits first, if edges leave no doubt.
 fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
     let hit = world.geometry.closest(&Ray::new(from, to - from))?;
-    Some((hit.primitive, hit.face, u32::from(hit.sign > 0)))
+    Some((hit.primitive.0, hit.face, u32::from(hit.sign > 0)))
 }
 
 #[test]

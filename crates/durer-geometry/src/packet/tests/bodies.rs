@@ -254,7 +254,12 @@ fn placed() -> Vec<World> {
             let (one, two) = (csg.leaf(put(one)).unwrap(), csg.leaf(put(two)).unwrap());
             let rest = csg.difference(one, [two]);
             let body = csg.build(rest).unwrap();
-            all.push(World::placed(name, how, Geometry::builder().add_compound(body).build().unwrap(), maps));
+            all.push(World::placed(
+                name,
+                how,
+                Geometry::builder().with_compound(body).build().unwrap(),
+                maps,
+            ));
         }
     }
     all
@@ -286,7 +291,7 @@ fn at_random(dice: &mut Dice) -> World {
     }
     let whole = parts.remove(0);
     let body = csg.build(whole).unwrap();
-    World::of("random body", Geometry::builder().add_compound(body).build().unwrap())
+    World::of("random body", Geometry::builder().with_compound(body).build().unwrap())
 }
 
 /// Rays at a world and from its surface; how many there were, and how many fell back.

@@ -185,7 +185,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         tally.met += 1;
         if asked.lane(i) {
             let mut single = Hits8::NONE;
-            let seen = geometry.first_visible(&ray, u32::MAX, Need::SHADING_NORMAL);
+            let seen = geometry.masked(u32::MAX).first_visible(&ray, Need::SHADING_NORMAL);
             single.set_lane(i, seen);
             assert_eq!(
                 format!("{:?}", one(hits, i)),
@@ -217,7 +217,7 @@ fn check_hit(world: &World, ray: &Ray, first: &Hit, hits: &Hits8, i: usize) {
     assert!((hits.t.0[i] - first.t).abs() <= apart, "{name}: {ray:?} {first:?} {}", hits.t.0[i]);
     assert_eq!(
         (hits.object[i], hits.primitive[i], hits.touching.lane(i)),
-        (first.object, first.primitive, first.sign == 0),
+        (first.object.0, first.primitive.0, first.sign == 0),
         "{name}: {ray:?} {first:?}"
     );
     let exact = world.geometry.resolve_with(ray, first, Need::SHADING_NORMAL);

@@ -160,7 +160,7 @@ type Worlds = (Isa, Vec<World>);
 fn worlds<S: Algebraic + 'static>(name: &'static str, sides: Sides, surface: S, (isa, out): &mut Worlds) {
     let surface = DynSurface::new(surface);
     let mut world = |how: &str, turned: bool, maps: Vec<Affine>, surface: DynSurface| {
-        let geometry = Geometry::builder().isa(*isa).add(surface).build().unwrap();
+        let geometry = Geometry::builder().isa(*isa).with(surface).build().unwrap();
         let full = format!("{name}, {how}");
         out.push(World { surface: name, name: full, geometry, sides, turned, edges: None, maps });
     };
