@@ -93,7 +93,7 @@ pub use crate::algebraic::{AlgebraicError, AlgebraicSurface};
 pub use crate::annulus::{Annulus, AnnulusError};
 pub use crate::axis_box::{AxisBox, AxisBoxError};
 pub use crate::blob::{Blob, BlobComponent, BlobError, BlobShape};
-pub use crate::compose::affine::Placed;
+pub use crate::compose::affine::{Place, Placed};
 pub use crate::compose::clip::{Algebraic, Clip};
 pub use crate::compose::complement::Complement;
 pub use crate::compose::dynamic::DynSurface;

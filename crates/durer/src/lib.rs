@@ -16,24 +16,62 @@
 //! Surfaces go into a geometry, which answers rays:
 //!
 //! ```
-//! use durer::geometry::Geometry;
-//! use durer::math::{Point3, Ray, Vec3};
 //! use durer::surfaces::{AxisBox, Sphere};
+//! use durer::{Geometry, Point3, Ray, Vec3};
 //!
-//! let mut builder = Geometry::builder();
-//! builder.add(Sphere::new(Point3::new(0.0, 0.0, 0.0), 1.0)?);
-//! builder.add(AxisBox::new(Point3::new(2.0, -1.0, -1.0), Point3::new(3.0, 1.0, 1.0))?);
-//! let geometry = builder.build()?;
+//! let geometry = Geometry::builder()
+//!     .with(Sphere::new(Point3::ORIGIN, 1.0)?)
+//!     .with(AxisBox::new(Point3::new(2.0, -1.0, -1.0), Point3::new(3.0, 1.0, 1.0))?)
+//!     .build()?;
 //!
-//! let ray = Ray::new(Point3::new(-5.0, 0.5, 0.0), Vec3::new(1.0, 0.0, 0.0));
+//! let ray = Ray::new(Point3::new(-5.0, 0.5, 0.0), Vec3::X);
 //! let hits = geometry.all(&ray);                  // every crossing, in order
 //! assert_eq!(hits.len(), 4);
 //! assert!(hits.iter().all(|hit| hit.t_lo <= hit.t && hit.t <= hit.t_hi));
+//! let first = geometry.closest(&ray).unwrap();    // the first of them
+//! assert_eq!((first, first.object.0), (hits[0], 0));
 //! let spans = geometry.spans(&ray);               // where the ray is inside solids
 //! assert_eq!((spans[1].t_in, spans[1].t_out), (7.0, 8.0));
-//! let point = geometry.resolve(&ray, &hits[0]);   // position, normals, error bounds
-//! let next = point.spawn(point.ng.to_vec());      // starts provably outside the sphere
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A hit says where on the ray. Its point says the rest, and rays that go on from it start on a
+//! proven side of the surface:
+//!
+//! ```
+//! # use durer::surfaces::Sphere;
+//! # use durer::{Geometry, Point3, Ray, Vec3};
+//! # let geometry = Geometry::builder().with(Sphere::new(Point3::ORIGIN, 1.0)?).build()?;
+//! # let ray = Ray::new(Point3::new(-5.0, 0.5, 0.0), Vec3::X);
+//! # let hit = geometry.closest(&ray).unwrap();
+//! let point = geometry.resolve(&ray, &hit);       // position, normals, uv, error bounds
+//! assert!(point.off < 1e-15);                     // how far from the exact sphere it may be
+//! let next = point.spawn(point.ng.to_vec());
 //! assert!(!geometry.any(&next) && !geometry.contains(next.origin));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Any surface can be placed by a map. Masks say which rays see it, and many rays are asked at
+//! once, on all processors:
+//!
+//! ```
+//! use durer::geometry::{ObjectId, PrimitiveId};
+//! use durer::surfaces::{Axis, Place, Torus};
+//! use durer::{Affine, Geometry, Point3, Ray, Vec3};
+//!
+//! let ring = Torus::new(Point3::ORIGIN, Axis::Y, 2.0, 0.5)?;
+//! let turn = Affine::rotation_x(0.3)?.then(&Affine::translation(Vec3::new(0.0, 1.0, 0.0))?)?;
+//! let mut builder = Geometry::builder();
+//! builder.add_as(ring.clone(), ObjectId(0), PrimitiveId(0), 0b01);
+//! builder.add_as(ring.placed(turn), ObjectId(1), PrimitiveId(0), 0b10);
+//! let geometry = builder.build()?;
+//!
+//! let rays: Vec<Ray> =
+//!     (-30..30).map(|i| Ray::new(Point3::new(0.1 * f64::from(i), 9.0, 0.0), -Vec3::Y)).collect();
+//! let both = geometry.batch(&rays).all();         // the hits of ray i are both.of(i)
+//! let second = geometry.masked(0b10).batch(&rays).threads(1).closest();
+//! assert_eq!(both.offsets.len(), rays.len() + 1);
+//! assert!(second.iter().flatten().all(|hit| hit.object == ObjectId(1)));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -48,6 +86,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
+
+pub use durer_geometry::{Geometry, Hit, Span};
+pub use durer_math::{Affine, Point3, Ray, Vec3};
+pub use durer_surfaces::{Accelerate, Surface, SurfacePoint};
 
 pub use durer_bvh as bvh;
 pub use durer_geometry as geometry;
