@@ -7,10 +7,10 @@
 mod common;
 
 use common::Dice;
+use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_geometry::Geometry;
 use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
 use durer_surfaces::implicit::level_set::primitives;
-use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
     Accelerate, Algebraic, Axis, AxisBox, Blob, BlobComponent, BlobShape, CappedCylinder, Container,
     DynSurface, Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet, LevelSet, Placed, RootKind, Side,

@@ -8,8 +8,8 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::{Comparison, Function, Interval, Point3};
-use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_scene::{Container, Isosurface};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};

@@ -7,7 +7,7 @@
 //! The values are those of POV-Ray, to rounding. Patterns with a list of entries have the values 0,
 //! 1, ..., and a frequency only if one is given.
 
-use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 
 use crate::diagnostics::{self, Error, ErrorKind, Place};
 use crate::formulas;

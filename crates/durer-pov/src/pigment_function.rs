@@ -10,7 +10,7 @@
 //! If a map is continuous, so are the functions; where two entries have the same position, they
 //! jump.
 
-use durer_scene::tape::{Builder, Formula, NodeId, Op};
+use durer_formula::{Builder, Formula, NodeId, Op};
 
 use crate::diagnostics::{Error, Result};
 use crate::formulas::pieces::{Knot, chosen};

@@ -15,8 +15,8 @@
 
 use std::rc::Rc;
 
+use durer_formula::{Builder, Formula, FormulaError, NodeId};
 use durer_math::Interval;
-use durer_scene::tape::{Builder, Formula, FormulaError, NodeId};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::formulas::pieces;

@@ -4,7 +4,7 @@
 //! Inside other functions, a component of the value is named after the call (`F(x, y, z).red`). In
 //! expressions the value has all components.
 
-use durer_scene::tape::{Builder, Formula, FormulaError};
+use durer_formula::{Builder, Formula, FormulaError};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::formula::check_count;

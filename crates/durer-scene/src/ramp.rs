@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use durer_formula::Formula;
 use durer_math::Vec3;
-use durer_surfaces::tape::Formula;
 
 use crate::{Cells, DensityGrid, GridBetween, ImageMap, ImageValue, Object, Pigment, Turbulence};
 

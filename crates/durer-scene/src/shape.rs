@@ -5,11 +5,11 @@ use std::sync::Arc;
 use durer_math::{Point3, Vec3};
 use durer_surfaces::{DynSurface, StraightPath, StraightPathError};
 
-use crate::tape::Formula;
 use crate::{
     BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep, SewnData,
     SubdivisionData, SweepSpline, Terrain, Texture, Warp,
 };
+use durer_formula::Formula;
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.

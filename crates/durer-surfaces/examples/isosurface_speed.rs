@@ -1,8 +1,8 @@
 //! The time of a ray that meets a formula:
 //! `cargo run --release -p durer-surfaces --example isosurface_speed`.
 
+use durer_formula::{Builder, FormulaError, Op};
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
-use durer_surfaces::tape::{Builder, FormulaError, Op};
 use durer_surfaces::{Any, AxisBox, Closest, Container, Isosurface, LocalRay, Need, Surface, superellipsoid};
 use std::time::Instant;
 
@@ -69,7 +69,7 @@ fn timed(
 }
 
 /// `sqrt(x^2 + y^2 + z^2) - 0.9 + a sin(20 x) sin(20 y) sin(20 z)`.
-fn bumpy(a: f64) -> Result<durer_surfaces::tape::Formula, FormulaError> {
+fn bumpy(a: f64) -> Result<durer_formula::Formula, FormulaError> {
     let mut b = Builder::new();
     let (mut sum, mut product) = (b.constant(0.0)?, b.constant(a)?);
     for i in 0..3 {

@@ -12,7 +12,6 @@ use crate::packet::{FilterSource, PacketKernel, Terms};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,
@@ -21,6 +20,7 @@ use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::scale::ldexp;
 use durer_math::{Aabb, Dyadic, EFloat, Isa, Point3, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 use std::sync::Arc;
 
 /// The greatest order.

@@ -21,7 +21,6 @@
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame, tangents};
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,
@@ -29,6 +28,7 @@ use crate::{
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, Dyadic, Interval, Point3, Ring, U, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 
 /// A Dupin cyclide with its inside, in its own frame.
 ///

@@ -29,8 +29,7 @@
 //! | `zero_set`, [`polynomial_surface`] | surfaces of an author's own polynomial, and their solver |
 //! | [`compose`] | placed, clipped and complemented surfaces |
 //! | `ray/`, `sink` | re-centred rays, and the queries as sinks of roots |
-//! | `roots/` | solvers of polynomial equations, up to exact arithmetic |
-//! | [`tape`], [`implicit`] | formulas, their interval arithmetic, level sets, deformations |
+//! | [`implicit`] | level sets of formulas, deformations |
 //! | [`packet`] | bounded f64 models that answer for eight rays at once |
 //! | [`textbook`] | the textbook forms and their weaknesses |
 //! | `laws/` | what every surface must keep, checked against exact arithmetic |
@@ -74,14 +73,12 @@ pub mod prism;
 pub mod quadric;
 mod ray;
 pub mod revolution;
-mod roots;
 mod sink;
 pub mod sor;
 pub mod sphere;
 pub mod sphere_sweep;
 mod surface;
 mod swift;
-pub mod tape;
 pub mod terrain;
 pub mod textbook;
 pub mod torus;

@@ -6,9 +6,6 @@
 use crate::point::least_step;
 use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
 use crate::ray::PREVIEW_WIDTH;
-use crate::roots::exact::ExactRoots;
-use crate::roots::polynomial::{Along, Found, Stretch, solve, stays};
-use crate::roots::quadratic::{Limits, NARROW, Quadratic};
 use crate::sphere::sphere_chart;
 use crate::{CentredRay, End, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
@@ -16,6 +13,9 @@ use core::cmp::Ordering::{Equal, Greater, Less};
 use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
+use durer_roots::exact::ExactRoots;
+use durer_roots::polynomial::{Along, Found, Stretch, solve, stays};
+use durer_roots::quadratic::{Limits, NARROW, Quadratic};
 
 /// Covers results below the normal range, in units of the surface's size.
 const TINY: f64 = durer_math::scale::pow2(-500);

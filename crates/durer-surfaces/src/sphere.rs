@@ -13,7 +13,6 @@ use crate::packet::FilterSource;
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, View};
 use crate::quadric::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -21,6 +20,7 @@ use crate::{
 use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
 use durer_math::{Aabb, Affine, EFloat, Point3, RaySide, Ring, U, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 
 /// A sphere with its inside.
 ///

@@ -17,7 +17,6 @@ use crate::packet::{FilterSource, RevolutionKernel, RevolutionWall};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
-use crate::roots::quadratic::Quadratic;
 use crate::sphere::length;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
@@ -26,6 +25,7 @@ use crate::{
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, Dyadic, EFloat, Point3, Ring, U, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 
 /// A torus with its inside.
 ///

@@ -9,7 +9,6 @@
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink,
     Solidity, Surface, SurfacePoint,
@@ -18,6 +17,7 @@ use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, EFloat, Isa, Point3, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A polynomial of a degree below `N` in x, y and z: all that a surface needs to be a [`ZeroSet`].
 ///

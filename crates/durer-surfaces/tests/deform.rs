@@ -7,9 +7,9 @@ mod witness;
 
 use astro_float::BigFloat;
 use common::Dice;
+use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_math::{Aabb, Affine, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::implicit::level_set::primitives;
-use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{
     All, Axis, DeformError, Isosurface, LevelSet, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere,
     Surface, Torus, Warp,

@@ -6,8 +6,8 @@ mod common;
 mod formulas;
 
 use common::Dice;
+use durer_formula::{Formula, Op};
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
-use durer_surfaces::tape::{Formula, Op};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };

@@ -4,8 +4,8 @@
 #[path = "common/formulas.rs"]
 mod formulas;
 
+use durer_formula::{NodeId, Op, Tape};
 use durer_math::{Comparison, Function, I8, Interval, Point3, Ray, Vec3};
-use durer_surfaces::tape::{NodeId, Op, Tape};
 use durer_surfaces::{LocalRay, Need, Root, RootKind, Surface};
 use formulas::{Pen, all, iso};
 

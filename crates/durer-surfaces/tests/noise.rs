@@ -4,8 +4,8 @@
 mod common;
 
 use common::Dice;
+use durer_formula::{Builder, Formula, Op};
 use durer_math::{Dyadic, Point3, Ray, Ring, Vec3};
-use durer_surfaces::tape::{Builder, Formula, Op};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
 use std::cmp::Ordering;
 

@@ -92,6 +92,7 @@ pub use durer_math::{Affine, Point3, Ray, Vec3};
 pub use durer_surfaces::{Accelerate, Surface, SurfacePoint};
 
 pub use durer_bvh as bvh;
+pub use durer_formula as formula;
 pub use durer_geometry as geometry;
 pub use durer_math as math;
 pub use durer_mesh as mesh;

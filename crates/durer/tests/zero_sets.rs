@@ -1,8 +1,8 @@
 //! Polynomials of an author's own keep the laws, also placed and clipped.
 
+use durer::formula::Formula;
 use durer::math::{Aabb, Point3, Ray, Ring, Vec3};
 use durer::surfaces::laws::{Exact, Feature, TestRng, TestSurface, ZeroOracle, aim, check_alone, check_many};
-use durer::surfaces::tape::Formula;
 use durer::surfaces::{
     AlgebraicSurface, All, AxisBox, Clip, Container, Isosurface, LocalRay, Placed, Polynomial, Region, Root,
     Sphere, Surface, ZeroSet, ZeroSetError, algebraic,

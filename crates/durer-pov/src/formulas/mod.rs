@@ -9,7 +9,7 @@ mod fractal;
 mod pen;
 pub(crate) mod pieces;
 
-use durer_scene::tape::{Formula, Op};
+use durer_formula::{Formula, Op};
 use pen::Pen;
 
 pub(crate) use fractal::PLAIN as PLAIN_NOISE;

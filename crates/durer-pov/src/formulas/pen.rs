@@ -4,8 +4,8 @@
 //!   name = sum; name = sum; ... sum
 //! ```
 
+use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_math::Function;
-use durer_scene::tape::{Builder, Formula, NodeId, Op};
 use std::f64::consts::PI;
 
 /// Reads one of the table's formulas. These are correct, so no error messages are needed.

@@ -9,8 +9,8 @@
 //! The argument of a piece is clamped to the piece and its neighbours. Only bounds over boxes that
 //! reach farther evaluate it there, and far from its knots the bounds of a cubic would be useless.
 
+use durer_formula::{Builder, FormulaError, NodeId, Op};
 use durer_math::Interval;
-use durer_scene::tape::{Builder, FormulaError, NodeId, Op};
 
 /// A knot, with the value of the function there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
+use durer_formula::{Formula, Tape};
 use durer_math::{F8, Point3};
 use durer_render::PigmentColours;
-use durer_scene::tape::{Formula, Tape};
 use durer_scene::{HeightField, MOST_SAMPLES, Settings, Terrain, TerrainData};
 
 use super::Shape;

@@ -1,9 +1,9 @@
 //! Laws that hold for any text that is read as a scene.
 
+use durer_formula::{Formula, Tape};
 use durer_math::{I8, Interval, Point3};
 use durer_pov::{Limits, PovError, Read, ReadOptions};
 use durer_scene::Shape;
-use durer_scene::tape::{Formula, Tape};
 use std::path::Path;
 
 /// A tenth of a second's work, and little memory. Any text is read or refused within these limits.

@@ -1,8 +1,8 @@
 //! Deformed solids: formulas of the solids that can be deformed.
 
+use durer_formula::Formula;
 use durer_math::{Aabb, Affine, elementary};
 use durer_surfaces::implicit::level_set::primitives::{self, Principal};
-use durer_surfaces::tape::Formula;
 use durer_surfaces::{
     Accelerate, AxisBox, Blob, CappedCylinder, Cyclide, Frustum, Isosurface, LevelSet, Plane, Quadric,
     Sphere, SphericalSector, Surface, Torus,

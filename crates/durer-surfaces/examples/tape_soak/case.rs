@@ -5,8 +5,8 @@
 mod bytes;
 
 use bytes::Bytes;
+use durer_formula::{Builder, Formula, NodeId, Op, Tape};
 use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
-use durer_surfaces::tape::{Builder, Formula, NodeId, Op, Tape};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Need, RootKind, Surface};
 
 impl Bytes<'_> {

@@ -11,11 +11,11 @@ use super::component::{FieldSegment, REACH};
 use super::refine::{Bracket, Touch};
 use super::segment::{SegmentRoot, Stretch};
 use super::tree::{Inner, is_known};
-use crate::roots::quadratic::NARROW;
 use crate::{CentredRay, End, PREVIEW_WIDTH, Root, RootKind, Sink};
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use durer_math::{EFloat, Isa, RaySide, U, Vec3};
+use durer_roots::quadratic::NARROW;
 
 /// A ray in the frame of a blob, in units.
 #[derive(Clone, Copy, Debug)]

@@ -33,11 +33,11 @@ mod tree;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::{Fields, FilterSource};
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
     Solidity, SphereError, Surface, SurfacePoint,
 };
+use durer_roots::quadratic::Quadratic;
 pub(crate) use march::Along;
 pub(crate) use tree::{Inner, Tree};
 

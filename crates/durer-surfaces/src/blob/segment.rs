@@ -7,10 +7,10 @@
 //! (rounding, the ray, fields that begin or end slightly beside the stretch's ends), so a certain
 //! sign is that of the sum itself.
 
-use crate::roots::bernstein::{Bernstein, Count, FLOOR};
 use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use durer_math::U;
+use durer_roots::bernstein::{Bernstein, Count, FLOOR};
 
 /// The shortest part of a stretch that is divided.
 const FINEST: u32 = 44;

@@ -11,12 +11,12 @@ use super::region::{FaceSet, Region};
 use crate::packet::FilterSource;
 use crate::quadric::boolean_faces::{Frame, QuadricFaces};
 use crate::quadric::solid::QuadricSolid;
-use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::sphere::Sphere;
 use crate::{Accelerate, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Ring};
+use durer_roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use std::sync::OnceLock;
 
 /// A surface each of whose faces is the zero set of a polynomial.

@@ -2,7 +2,6 @@
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -10,6 +9,7 @@ use crate::{
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, RaySide};
+use durer_roots::quadratic::Quadratic;
 
 /// The complement of the solid `S`, with its boundary: entering becomes leaving, and normals point
 /// the other way. An open surface keeps its place and turns its normal.

@@ -4,13 +4,13 @@
 use crate::compose::clip::Algebraic;
 use crate::compose::region::Region;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Forward, HalfSpace, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
+use durer_roots::quadratic::Quadratic;
 use std::sync::Arc;
 
 /// Any surface. What it answers is what the surface within answers.

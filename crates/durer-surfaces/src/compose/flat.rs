@@ -6,10 +6,10 @@
 
 use crate::compose::clip::Algebraic;
 use crate::planar::{ThreePoints, cross, dot, exact3};
-use crate::roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 use crate::{Annulus, AxisBox, Disc, LocalRay, Mesh, Parallelogram, Plane, Polygon, Prism, Root, Triangle};
 use core::cmp::Ordering;
 use durer_math::{Dyadic, Point3, Ring};
+use durer_roots::quadratic::{Crossing, Quadratic, exact_sign, sign_at_root};
 
 /// `n·(x - p)` along the ray.
 fn linear(normal: &[Dyadic; 3], p: Point3, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {

@@ -6,12 +6,12 @@ use crate::packet::FilterSource;
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, tangents};
 use crate::quadric::form::{Form, Rounded};
 use crate::quadric::solid::QuadricSolid;
-use crate::roots::quadratic::Quadratic;
 use crate::{LocalRay, Root};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Interval, Isa, Normal3, Point3, Ray, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 use std::sync::Arc;
 
 /// The box `min <= x <= max` as a region.

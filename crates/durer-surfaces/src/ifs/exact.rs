@@ -3,12 +3,12 @@
 use super::leaf::{Leaf, Pass};
 use super::{System, Word, word_of};
 use crate::planar::quotient_bounds;
-use crate::roots::quadratic::{Crossing, Quadratic, SignedEnclosure, sign_at_root as quadratic_sign};
 use crate::{CentredRay, End, LocalRay, RingRay, Root, RootKind};
 use core::cell::OnceCell;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::{Dd, Dyadic, EFloat, Ring};
+use durer_roots::quadratic::{Crossing, Quadratic, SignedEnclosure, sign_at_root as quadratic_sign};
 
 /// An end of the interval of a line in a copy.
 #[derive(Clone, Copy, Debug)]

@@ -37,13 +37,13 @@ mod walk;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity,
     SphereError, Surface, SurfacePoint,
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Affine, Dyadic, Isa, Point3};
+use durer_roots::quadratic::Quadratic;
 use frame::Frames;
 use leaf::Leaf;
 use std::sync::Arc;

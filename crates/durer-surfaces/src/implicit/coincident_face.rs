@@ -17,8 +17,8 @@ use super::line::BoundedLine;
 use super::root_isolator::{CertifiedFunction, Found};
 use crate::RootKind;
 use crate::quadric::boolean_faces::tangents;
-use crate::tape::Tape;
 use core::ops::ControlFlow;
+use durer_formula::Tape;
 use durer_math::Vec3;
 
 /// The number of directions across the ray that are tried in half a turn.

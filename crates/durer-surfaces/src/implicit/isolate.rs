@@ -6,7 +6,7 @@
 
 use super::line::{BoundedLine, signs};
 use super::root_isolator::{CertifiedFunction, Found, SignInfo};
-use crate::tape::Tape;
+use durer_formula::Tape;
 use durer_math::I8;
 
 /// After this many passes over a tape for one ray the rest counts as unresolved, so the work for a

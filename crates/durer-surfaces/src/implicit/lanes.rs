@@ -21,7 +21,7 @@ use super::march::Stop;
 use super::octree_lookup::Lookup;
 use super::subdivide::{Pieces, boxes};
 use crate::packet::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
-use crate::tape::Tape;
+use durer_formula::Tape;
 use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
 
 impl Isosurface {

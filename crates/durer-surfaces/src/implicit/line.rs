@@ -3,7 +3,7 @@
 
 use super::root_isolator::{CertifiedFunction, interpolated};
 use crate::CentredRay;
-use crate::tape::Tape;
+use durer_formula::Tape;
 use durer_math::eft::two_sum;
 use durer_math::{Dual, F8, I8, Point3, U, Vec3};
 

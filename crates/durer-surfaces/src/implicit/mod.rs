@@ -41,13 +41,13 @@ pub use superellipsoid::{SuperellipsoidError, superellipsoid};
 
 use crate::compose::clip::Algebraic;
 use crate::packet::{FilterSource, ImplicitKernel};
-use crate::roots::quadratic::Quadratic;
-use crate::tape::{Builder, Formula, FormulaError, Op, Powers, Tape};
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
+use durer_formula::{Builder, Formula, FormulaError, Op, Powers, Tape};
 use durer_math::{Aabb, Dyadic, F8, I8, Point3};
+use durer_roots::quadratic::Quadratic;
 use octree::{CellLookup, Cells};
 use std::sync::{Arc, OnceLock};
 use superellipsoid_concave::Star;

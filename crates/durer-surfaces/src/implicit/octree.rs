@@ -14,7 +14,7 @@
 
 use super::line::BoundedLine;
 use super::octree_lookup::{Grid, Lookup};
-use crate::tape::Tape;
+use durer_formula::Tape;
 use durer_math::{Aabb, Dual, F8, I8, Interval, Number, Point3, Scalar, U};
 use std::collections::HashMap;
 use std::sync::OnceLock;

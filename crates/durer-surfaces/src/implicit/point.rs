@@ -4,8 +4,8 @@
 use super::Isosurface;
 use super::line::BoundedLine;
 use crate::point::least_step;
-use crate::tape::{Tape, seed};
 use crate::{LocalRay, Need, Root, SurfacePoint};
+use durer_formula::{Tape, seed};
 use durer_math::{Dual, I8, Interval, Point3, U, Vec3};
 
 /// A point next to the surface.

@@ -16,9 +16,9 @@
 use super::isolate::isolate;
 use super::line::BoundedLine;
 use super::root_isolator::SignInfo;
-use crate::roots::bernstein::{Bernstein, FLOOR};
-use crate::tape::{Powers, Tape};
+use durer_formula::{Powers, Tape};
 use durer_math::{Isa, U};
+use durer_roots::bernstein::{Bernstein, FLOOR};
 
 /// Places must be rounded by less than this part of a stretch, or the polynomial is not used: `(1 +
 /// 1/64)^15 < 4/3` bounds the growth of a slope.
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use crate::LocalRay;
     use crate::laws::TestRng;
-    use crate::tape::{Builder, NodeId, Op};
+    use durer_formula::{Builder, NodeId, Op};
     use durer_math::scale::pow2;
     use durer_math::{Dyadic, Point3, Ray, Vec3};
 

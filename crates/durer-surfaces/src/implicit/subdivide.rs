@@ -13,7 +13,7 @@
 //! itself, which also decides whether `g` is monotone.
 
 use crate::packet::{Line8, Segment8};
-use crate::tape::Tape;
+use durer_formula::Tape;
 use durer_math::{Dual, F8, I8, M8, U, Vec3};
 
 /// A point of each line within an error, or a stretch of it, as boxes.
@@ -211,7 +211,7 @@ impl Pieces {
 pub(super) mod tests {
     use super::*;
     use crate::laws::TestRng;
-    use crate::tape::{Builder, Op};
+    use durer_formula::{Builder, Op};
     use durer_math::{Dyadic, Isa};
 
     /// `x^3 - 2 x + y z + c`, as a tape and exactly.

@@ -21,8 +21,8 @@
 
 use super::superellipsoid_convex::Gauge;
 use super::{Container, Isosurface, IsosurfaceError};
-use crate::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use crate::{AxisBox, AxisBoxError};
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::eft::two_prod;
 use durer_math::{Interval, Point3};
 

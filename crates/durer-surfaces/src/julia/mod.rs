@@ -34,12 +34,12 @@ mod tests;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use durer_math::{Aabb, Affine, Dyadic, Interval, Point3, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 use embed::Lift;
 use orbit::{Rule, TINY};
 use std::sync::Arc;

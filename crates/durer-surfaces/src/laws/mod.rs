@@ -6,16 +6,10 @@
 //! big integers and share no code with the kernels. A surface without one, such as that of a
 //! formula, is held to the laws that need none: [`check_alone`].
 
-pub mod exact;
-pub mod exact_polynomial;
-pub mod real_root;
-pub mod test_rng;
-
-pub use exact::{
-    Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, LineCache, Oracle, Surd, exact3, near,
+pub use durer_testkit::{
+    Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, Feature, LineCache, Oracle, RealRoot, Surd,
+    TestRng, ZeroOracle, aim, exact, exact_polynomial, exact3, near, real_root, real_roots, test_rng,
 };
-pub use real_root::{RealRoot, ZeroOracle, real_roots};
-pub use test_rng::{Feature, TestRng, aim};
 
 use crate::{
     Accelerate, All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sink, Solidity, Surface,

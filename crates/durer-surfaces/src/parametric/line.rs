@@ -12,10 +12,10 @@
 use super::Bounds;
 use super::piece::{Domain, Face, Piece, Unit, around, lane_of};
 use crate::patch::line::Line;
-use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, inverse, zero_in};
-use crate::tape::lanes;
+use durer_formula::lanes;
 use durer_math::eft::scale2;
 use durer_math::{Interval, U};
+use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, inverse, zero_in};
 
 /// Steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 8;

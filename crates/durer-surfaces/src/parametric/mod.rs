@@ -48,10 +48,10 @@ mod sweep_maps;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::tape::{Formula, FormulaError, VectorTape};
 use crate::{Accelerate, Container, Forward, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use bounds::Bounds;
 use build::Refused;
+use durer_formula::{Formula, FormulaError, VectorTape};
 use durer_math::Aabb;
 use piece::Face;
 use sheet::Sheet;
@@ -119,7 +119,7 @@ impl From<Refused> for ParametricError {
 ///
 /// ```
 /// use durer_math::{Function, Point3, Ray, Vec3};
-/// use durer_surfaces::tape::{Builder, Op};
+/// use durer_formula::{Builder, Op};
 /// use durer_surfaces::{Closest, LocalRay, Parametric, Surface};
 /// // A cylinder: x = cos u, y = v, z = sin u.
 /// let mut b = Builder::new();

@@ -9,7 +9,7 @@
 //! (the mean value form: R. E. Moore, *Interval Analysis*, 1966). `S(m)` and `S'(X)` are all that a
 //! ray needs: sheared onto it they are the value and the slopes of Krawczyk's test.
 
-use crate::tape::{VectorTape, lanes};
+use durer_formula::{VectorTape, lanes};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{I8, Interval, U, Vec3};
 

@@ -3,8 +3,8 @@
 use super::piece::Face;
 use super::sheet::Sheet;
 use crate::point::least_step;
-use crate::tape::lanes;
 use crate::{LocalRay, Root, SurfacePoint};
+use durer_formula::lanes;
 use durer_math::eft::{scale2, two_sum};
 use durer_math::scale::pow2;
 use durer_math::{Point3, U, Vec3};

@@ -8,11 +8,11 @@ use super::{Bounds, subdivide};
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
 use crate::patch::line::Line;
-use crate::roots::two_unknowns::Content;
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, U, Vec3};
+use durer_roots::two_unknowns::Content;
 
 /// Pieces farther than this from the ray's range, in units, are not looked at: far more than any
 /// bracket of a proven crossing is wide.

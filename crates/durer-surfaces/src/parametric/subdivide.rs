@@ -4,9 +4,9 @@
 
 use super::line::{Found, View};
 use super::piece::{Domain, Piece, halves};
-use crate::roots::two_unknowns::{Content, ROUNDED};
 use durer_math::U;
 use durer_math::scale::pow2;
+use durer_roots::two_unknowns::{Content, ROUNDED};
 
 /// The most times that one ray cuts up parts of a piece; what is then left stays unresolved. A
 /// tangent needs some dozens.

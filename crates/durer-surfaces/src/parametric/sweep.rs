@@ -31,11 +31,11 @@ use crate::compose::clip::Algebraic;
 use crate::mesh::Sorted;
 use crate::packet::FilterSource;
 use crate::prism::curved::Bezier;
-use crate::tape::FormulaError;
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
+use durer_formula::FormulaError;
 use durer_math::{Aabb, Ray, Vec3};
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 use super::path::{PathSpline, Span};
 use super::piece::Face;
 use crate::prism::curved::Bezier;
-use crate::tape::{Builder, FormulaError, NodeId, Op, VectorTape};
+use durer_formula::{Builder, FormulaError, NodeId, Op, VectorTape};
 use durer_math::{Function, Vec3};
 
 /// The maps of the walls and caps of a sweep: what all of them have in common.

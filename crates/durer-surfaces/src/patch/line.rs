@@ -15,9 +15,9 @@ use super::exact::Exact;
 use super::net::Homogeneous;
 use super::subdivide;
 use crate::CentredRay;
-use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 use durer_math::U;
 use durer_math::eft::two_diff;
+use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 
 /// Where a cell's own limits hold.
 const MARGINS: [[f64; 2]; 2] = [[-MARGIN, 1.0 + MARGIN]; 2];

@@ -7,11 +7,11 @@ use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
-use crate::roots::two_unknowns::ROUNDED;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
+use durer_roots::two_unknowns::ROUNDED;
 use std::sync::Arc;
 
 /// Cells farther than this from the ray's range, in units, are not looked at: far more than any

@@ -11,9 +11,9 @@
 use super::cell::{MARGIN, basis, power};
 use super::exact::Exact;
 use super::line::{Found, View, touches};
-use crate::roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 use core::ops::{Add, Mul, Sub};
 use durer_math::{Dd, Isa, U};
+use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 
 /// The most parts of a cell that one ray looks at; the rest stays unresolved. A tangent needs a few
 /// hundred.

@@ -75,7 +75,7 @@ macro_rules! surface_of_patches {
                 &self,
                 _face: u32,
                 _ray: &crate::LocalRay<'_>,
-            ) -> Option<crate::roots::quadratic::Quadratic<durer_math::Dyadic>> {
+            ) -> Option<durer_roots::quadratic::Quadratic<durer_math::Dyadic>> {
                 None
             }
         }

@@ -14,16 +14,16 @@
 
 use crate::quadric::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
-use crate::roots::quadratic::{
-    Crossing, Limits, LineRoots, NARROW, Quadratic, SignedEnclosure, admit, compare_roots, exact_sign,
-    locate, locate_exact, sign_at_root, slope_at_root, solve,
-};
 use crate::{CentredRay, End, LocalPoint, RingRay, Root, RootKind, Side, Sink};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
 use core::ops::ControlFlow;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
+use durer_roots::quadratic::{
+    Crossing, Limits, LineRoots, NARROW, Quadratic, SignedEnclosure, admit, compare_roots, exact_sign,
+    locate, locate_exact, sign_at_root, slope_at_root, solve,
+};
 
 /// The most faces a shape can have.
 pub const MAX_FACES: usize = 6;

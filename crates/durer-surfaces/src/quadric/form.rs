@@ -1,8 +1,8 @@
 //! The quadratic form `f(x) = x·Qx + 2 b·x + c`, and its restriction to a ray.
 
 use crate::RingRay;
-use crate::roots::quadratic::Quadratic;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// Covers underflow in sums of products of numbers of size one.
 pub(crate) const FLOOR: f64 = 1e-290;

@@ -12,11 +12,11 @@
 use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
 use crate::quadric::form::Form;
 use crate::quadric::solid::QuadricSolid;
-use crate::roots::quadratic::exact_sign;
 use crate::sphere::sphere_chart;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Point3, Ring, Vec3};
+use durer_roots::quadratic::exact_sign;
 
 /// The general quadric, as a solid where its polynomial is negative.
 pub type Quadric = QuadricSolid<GeneralQuadric>;

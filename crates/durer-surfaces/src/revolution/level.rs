@@ -1,10 +1,10 @@
 //! A plane across the axis of a solid of revolution, or of a sweep.
 
 use crate::planar::{self, AlongRay, Line, PlaneForm, Probe};
-use crate::roots::quadratic::{self, Quadratic};
 use crate::{CentredRay, RingRay};
 use core::cmp::Ordering;
 use durer_math::{Dyadic, Point3, Ring, Vec3};
+use durer_roots::quadratic::{self, Quadratic};
 
 /// The plane at a height, its normal upward.
 pub(crate) struct HeightPlane {

@@ -25,7 +25,6 @@ use crate::packet::{FilterSource, RevolutionKernel};
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::polynomial_surface;
 use crate::quadric::boolean_faces::Frame;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
     Solidity, Surface, SurfacePoint,
@@ -35,6 +34,7 @@ use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 use level::HeightPlane;
 use profile::{Cubic, Spindle, Stand};
 use profile_piece::Wall;

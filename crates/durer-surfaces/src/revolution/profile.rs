@@ -3,10 +3,10 @@
 
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
-use crate::roots::quadratic::Quadratic;
 use crate::{CentredRay, RingRay};
 use durer_math::eft::scale2;
 use durer_math::{Point3, Ring, U, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 
 /// The part that both kinds share: the position on the axis, the frame, and the heights between
 /// which the wall is used.

@@ -5,10 +5,10 @@ use crate::packet::RevolutionWall;
 use crate::planar::{AlongRay, Line, PointLine, Probe};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::Frame;
-use crate::roots::quadratic::Quadratic;
 use crate::{LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::{Dyadic, EFloat, Isa, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// The wall between two heights.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,11 +11,11 @@ use super::SphereSweep;
 use super::line::{RunEnd, Widths};
 use super::spline::Basis;
 use super::unite::Span;
-use crate::roots::exact::{ExactRoots, Isolated};
 use crate::{CentredRay, End, RingRay};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::{Dyadic, Ring, U};
+use durer_roots::exact::{ExactRoots, Isolated};
 
 /// Two runs that are nearer to each other than `2^-MOST_HALVINGS` touch.
 const MOST_HALVINGS: u32 = 400;

@@ -5,11 +5,11 @@
 use super::SphereSweep;
 use super::spline::Basis;
 use crate::CentredRay;
-use crate::roots::bernstein::{Bernstein, Count};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use durer_math::efloat::Word;
 use durer_math::{Dd, EFloat, Ring, U};
+use durer_roots::bernstein::{Bernstein, Count};
 
 /// No stretch of a piece is halved more often to find the signs of `D`.
 const FINEST: u32 = 40;

@@ -36,7 +36,6 @@ mod unite;
 use crate::blob::Tree;
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -44,6 +43,7 @@ use crate::{
 use capsule::Capsule;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Isa, Point3, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 use spline::{B_SPLINE, Basis, CUBIC, LINEAR};
 use std::sync::Arc;
 

@@ -6,11 +6,11 @@ use super::line::Curve;
 use super::spline::Basis;
 use crate::point::least_step;
 use crate::quadric::boolean_faces::tangents;
-use crate::roots::exact::ExactRoots;
 use crate::{CentredRay, End, LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Dyadic, EFloat, Isa, Point3, Ring, U, Vec3, elementary};
+use durer_roots::exact::ExactRoots;
 
 /// Covers results below the normal range, in units.
 const TINY: f64 = durer_math::scale::pow2(-500);

@@ -5,13 +5,13 @@ use super::line::{Doubt, Line, MOST, PieceLine, RunEnd, Widths};
 use super::spline::Basis;
 use super::{SphereSweep, exact};
 use crate::blob::{Along, Inner};
-use crate::roots::quadratic::NARROW;
 use crate::{CentredRay, End, LocalRay, PREVIEW_WIDTH, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
 use core::cell::Cell;
 use core::cmp::Ordering;
 use durer_math::efloat::Word;
 use durer_math::{Isa, RaySide, U};
+use durer_roots::quadratic::NARROW;
 
 /// Pieces farther than this from the ray's range, in units of the sweep, are not looked at: far
 /// more than any bracket is wide.

@@ -42,7 +42,6 @@ use crate::compose::flat;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::planar::{self, AlongRay, Crossing, Line as _, PlaneForm, Probe, ThreePoints};
-use crate::roots::quadratic::Quadratic;
 use crate::swift::{self, Swift};
 use crate::{
     Accelerate, Algebraic, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink, Solidity, Surface,
@@ -50,6 +49,7 @@ use crate::{
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dyadic, Normal3, Point3, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A sheet of triangles over the unit square. A root's face is `2 (j columns + i)` for the triangle
 /// at p00 of cell (i, j), one more for the other; faces from [`Heights::faces`] on are walls.

@@ -1,8 +1,8 @@
 //! A blob as a formula on the interval tape.
 
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::Affine;
 use durer_math::{Aabb, Interval, Point3};
-use durer_surfaces::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_surfaces::{Accelerate, AxisBox, BlobComponent, BlobShape, Container, Isosurface, Sphere};
 
 /// The solid in which the fields of `components` add up to more than `threshold`.

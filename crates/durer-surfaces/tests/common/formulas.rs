@@ -1,7 +1,7 @@
 //! Formulas in the notation of paper, and their surfaces.
 
+use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_math::{Point3, Ray};
-use durer_surfaces::tape::{Builder, Formula, NodeId, Op};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Root, Surface};
 
 /// Builds formulas in the notation of paper.

@@ -21,8 +21,8 @@ use super::cells::Cutter;
 use super::{Grains, Picture, RenderPigment};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
+use durer_formula::Tape;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
-use durer_scene::tape::Tape;
 use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Ramp};
 use ripples::Centres;
 

@@ -19,7 +19,7 @@
 
 use super::{DeformError, Map, Stretch, columns, direction};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
-use crate::tape::{FormulaError, NodeId};
+use durer_formula::{FormulaError, NodeId};
 use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 
 /// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge,

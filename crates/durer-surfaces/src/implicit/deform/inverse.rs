@@ -11,7 +11,7 @@
 
 use super::DeformError;
 use crate::implicit::level_set::{LevelSet, boxes, primitives};
-use crate::tape::{Formula, Tape};
+use durer_formula::{Formula, Tape};
 use durer_math::{Aabb, Dual, Interval, Point3};
 
 /// Into so many pieces along each axis the box is divided for the bounds of the slopes.

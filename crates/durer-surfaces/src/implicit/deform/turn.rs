@@ -11,7 +11,7 @@
 
 use super::{Map, Stretch};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
-use crate::tape::{FormulaError, NodeId};
+use durer_formula::{FormulaError, NodeId};
 use durer_math::{Function, Interval};
 
 const UNIT: Interval = Interval { lo: 0.0, hi: 1.0 };

@@ -1,7 +1,7 @@
 //! The formula of a blob: see [`Blob`](crate::blob::Blob), which meets rays without one.
 
-use crate::tape::{Builder, Formula, FormulaError, NodeId, Op};
 use crate::{BlobComponent, BlobShape};
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::{Affine, Interval, Point3};
 
 /// The square of the distance of its own point `p`, in units of its radius.

@@ -1,6 +1,6 @@
 //! Writing formulas much as one does on paper.
 
-use crate::tape::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::{Affine, Function, Interval, Point3, Vec3};
 
 /// A step, or too many of them.
@@ -172,10 +172,10 @@ impl ExprBuilder {
         for &op in formula.ops() {
             here.push(match op {
                 Op::Input(i) => p[i as usize],
-                Op::Settled(a) => here[a.0 as usize],
-                op => self.0.push(op.renamed(|id| here[id.0 as usize]))?,
+                Op::Settled(a) => here[a.index()],
+                op => self.0.push(op.renamed(|id| here[id.index()]))?,
             });
         }
-        Ok(here[formula.root().0 as usize])
+        Ok(here[formula.root().index()])
     }
 }

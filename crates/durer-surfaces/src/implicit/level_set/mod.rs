@@ -14,7 +14,7 @@ pub mod primitives;
 
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::AxisBox;
-use crate::tape::{Formula, FormulaError, NodeId, Tape};
+use durer_formula::{Formula, FormulaError, NodeId, Tape};
 use durer_math::{Aabb, Affine, F8, I8, Vec3};
 use expr::ExprBuilder;
 

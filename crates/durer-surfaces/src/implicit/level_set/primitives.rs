@@ -9,7 +9,7 @@ use super::expr::{ExprBuilder, Step};
 use crate::BlobComponent;
 use crate::algebraic::powers;
 use crate::implicit::{Container, IsosurfaceError, SuperellipsoidError};
-use crate::tape::{Formula, FormulaError, NodeId, Op};
+use durer_formula::{Formula, FormulaError, NodeId, Op};
 use durer_math::{Aabb, Point3, Vec3};
 
 type Made = Result<Formula, FormulaError>;

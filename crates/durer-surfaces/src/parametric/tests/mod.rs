@@ -5,8 +5,8 @@ mod sweeps;
 
 use super::*;
 use crate::laws::{TestRng, TestSurface, all_roots, dice, drawn, report};
-use crate::tape::{Builder, NodeId, Op};
 use crate::{All, Axis, AxisBox, BezierPatch, CappedCylinder, RootKind, Sphere, Torus};
+use durer_formula::{Builder, NodeId, Op};
 use durer_math::U;
 use durer_math::{Function, Point3, Ray, Vec3};
 

@@ -35,13 +35,13 @@ mod triangles;
 use super::{map_uv, triangular};
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use data::INFINITELY_SHARP;
 use durer_math::{Aabb, Dd, Dyadic, Isa, Point3};
+use durer_roots::quadratic::Quadratic;
 use limit::{AHEAD, Limit};
 use std::sync::Arc;
 use topology::{Adjacency, Topology, apply, edge_of};

@@ -12,9 +12,9 @@ use super::parameter::{Places, product, quotient};
 use super::profile_curve::ProfileCurve;
 use super::profile_hits::Meet;
 use crate::planar::Line;
-use crate::roots::exact::ExactRoots;
 use core::cmp::Ordering;
 use durer_math::Dyadic;
+use durer_roots::exact::ExactRoots;
 
 /// A polynomial, the constant first.
 type Poly = Vec<Dyadic>;

@@ -1,10 +1,10 @@
 //! Exact roots of a cubic on `[-1/2, 1/2]`, including those at the ends.
 
 use super::profile_hits::Meet;
-use crate::roots::exact::{ExactRoots, Isolated};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
 use durer_math::{Dyadic, Ring};
+use durer_roots::exact::{ExactRoots, Isolated};
 
 /// The direction of the change of sign of a polynomial with these signs before and after a root.
 #[inline(always)]

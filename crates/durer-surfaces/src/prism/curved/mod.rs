@@ -36,7 +36,6 @@ use super::{PrismError, Sweep};
 use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
 use crate::planar::{self, Line, PointLine, Probe};
 use crate::revolution::level::HeightPlane;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -45,6 +44,7 @@ use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{mul_down, mul_up};
 use durer_math::{Aabb, Dyadic, Point3, Vec3};
+use durer_roots::quadratic::Quadratic;
 use forms::{Coordinate, Cut};
 use point::Wall;
 pub(crate) use profile_curve::greatest;

@@ -4,9 +4,9 @@ use super::Sweep;
 use super::spline::Bezier;
 use crate::LocalRay;
 use crate::packet::ProfileCurve8;
-use crate::roots::bernstein::Bernstein;
 use durer_math::eft::scale2;
 use durer_math::{EFloat, Point3, Ring, U, Vec3};
+use durer_roots::bernstein::Bernstein;
 
 /// The origin and the unit of length of a prism's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,13 +14,13 @@ use super::exact::{Ends, at, exact_sign, turn};
 use super::forms::{Coefficient, Cut, Form, along, value};
 use super::profile_curve::{ProfileCurve, View};
 use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
-use crate::roots::polynomial::{Along, Found, Stretch, solve};
-use crate::roots::quadratic::{Limits, NARROW};
 use crate::{PREVIEW_WIDTH, RingRay};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
 use core::ops::ControlFlow;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
+use durer_roots::polynomial::{Along, Found, Stretch, solve};
+use durer_roots::quadratic::{Limits, NARROW};
 
 /// Covers results below the normal range.
 const FLOOR: f64 = durer_math::scale::pow2(-500);

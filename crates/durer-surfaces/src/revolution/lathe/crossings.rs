@@ -13,13 +13,13 @@ use crate::mesh::Sorted;
 use crate::planar::{Crossing, Line, Probe, with_denominator_near_one};
 use crate::prism::curved::exact::{Ends, at, turn};
 use crate::prism::curved::profile_hits::Meet;
-use crate::roots::polynomial::{Along, Found, Stretch, solve};
-use crate::roots::quadratic::{Limits, NARROW};
 use crate::{LocalRay, PREVIEW_WIDTH, RingRay, Root, RootKind, Sink};
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
 use durer_math::efloat::Word;
 use durer_math::{EFloat, Isa, Ring, U};
+use durer_roots::polynomial::{Along, Found, Stretch, solve};
+use durer_roots::quadratic::{Limits, NARROW};
 
 /// A crossing of a ray with a piece of the profile.
 #[derive(Clone, Copy, Debug)]

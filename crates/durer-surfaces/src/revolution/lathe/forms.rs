@@ -20,8 +20,8 @@
 use super::profile::{Cubic, Piece, Profile};
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
-use crate::roots::polynomial::Along;
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
+use durer_roots::polynomial::Along;
 
 /// Pays for results below the normal range.
 const FLOOR: f64 = durer_math::scale::pow2(-900);

@@ -29,7 +29,6 @@ mod side;
 
 use crate::planar::Probe;
 use crate::prism::curved::profile_curve::extent;
-use crate::roots::quadratic::Quadratic;
 use crate::{
     Accelerate, Algebraic, Forward, LocalPoint, LocalRay, Need, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -39,6 +38,7 @@ use core::cmp::Ordering;
 use crossings::{Crossed, Pass};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dyadic, Point3, U};
+use durer_roots::quadratic::Quadratic;
 pub use profile::LatheSpline;
 use profile::{Piece, Profile};
 

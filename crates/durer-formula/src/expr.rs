@@ -28,11 +28,11 @@ impl Formula {
     /// The formula of x, y and z that a closure writes.
     ///
     /// ```
-    /// use durer_surfaces::tape::Formula;
+    /// use durer_formula::Formula;
     ///
     /// let wave = Formula::of(|x, y, z| z - (3.0 * x).cos() * (-y.square()).exp())?;
     /// assert_eq!(wave.value(&[0.0, 0.0, 1.5]), 0.5);
-    /// # Ok::<(), durer_surfaces::tape::FormulaError>(())
+    /// # Ok::<(), durer_formula::FormulaError>(())
     /// ```
     ///
     /// # Errors
@@ -208,7 +208,7 @@ operator!(Div, div);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tape::MOST_STEPS;
+    use crate::MOST_STEPS;
 
     #[test]
     fn operators_write_the_formula_that_they_say() {

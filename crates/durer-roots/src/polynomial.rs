@@ -17,9 +17,9 @@
 //! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked
 //! at as `σ = 1 / s`.
 
-use crate::roots::bernstein::{Bernstein, Count, FLOOR};
-use crate::roots::exact::{ExactRoots, Isolated};
-use crate::roots::quadratic::Limits;
+use crate::bernstein::{Bernstein, Count, FLOOR};
+use crate::exact::{ExactRoots, Isolated};
+use crate::quadratic::Limits;
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Greater, Less};
@@ -29,7 +29,7 @@ use durer_math::{Dd, Dyadic, EFloat, Isa, Ring, U};
 
 /// A polynomial along a line, in `y = s - mid`, at every step of the ladder; its first coefficient
 /// is the constant.
-pub(crate) trait Along<const N: usize> {
+pub trait Along<const N: usize> {
     /// In f64.
     fn double(&self) -> [EFloat; N];
     /// In double-double, times any positive number.
@@ -41,27 +41,37 @@ pub(crate) trait Along<const N: usize> {
 
 /// Where on the line roots may be.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Stretch {
+pub enum Stretch {
     /// Strictly within `half` of `mid`. `half` has at most 8 significant bits.
-    Within { mid: f64, half: f64 },
+    Within {
+        /// The middle.
+        mid: f64,
+        /// Half of the width.
+        half: f64,
+    },
     /// Anywhere.
     Everywhere,
 }
 
 /// A root.
-pub(crate) struct Found<'a> {
-    pub(crate) s: f64,
-    pub(crate) lo: f64,
-    pub(crate) hi: f64,
+pub struct Found<'a> {
+    /// The place: a rounded value in the bracket.
+    pub s: f64,
+    /// The lower end of the bracket.
+    pub lo: f64,
+    /// The upper end of the bracket.
+    pub hi: f64,
     /// It is the only root between these, and the signs before and after it are those of the
     /// polynomial from the one to it, and from it to the other.
-    pub(crate) alone: (f64, f64),
-    pub(crate) before: Ordering,
-    pub(crate) after: Ordering,
+    pub alone: (f64, f64),
+    /// The sign before the root.
+    pub before: Ordering,
+    /// The sign after the root.
+    pub after: Ordering,
     /// False if the ray was not known well enough to be sure.
-    pub(crate) certain: bool,
+    pub certain: bool,
     /// How the root was found, if f64 and double-double could not.
-    pub(crate) exact: Option<(&'a ExactRoots, &'a Isolated)>,
+    pub exact: Option<(&'a ExactRoots, &'a Isolated)>,
 }
 
 /// From `x` in `[-1, 1]` to the line.
@@ -374,7 +384,7 @@ impl<const N: usize> Scaled<f64, N> {
 
 /// Whether a polynomial in `y` has no root on `[-half, half]`, where its sign at `-half` is known.
 #[inline(always)]
-pub(crate) fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) -> bool {
+pub fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) -> bool {
     let scaled = Scaled::<f64, N>::new(a, half);
     Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
 }
@@ -389,7 +399,7 @@ struct Work<'w, L, F, const N: usize> {
 /// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits
 /// may be left out.
 #[inline(always)]
-pub(crate) fn solve<const N: usize, L: Along<N>>(
+pub fn solve<const N: usize, L: Along<N>>(
     line: &L,
     stretch: Stretch,
     limits: &Limits,

@@ -13,7 +13,7 @@
 use durer_math::efloat::Word;
 
 /// Pays for results below the normal range.
-pub(crate) const FLOOR: f64 = durer_math::scale::pow2(-1000);
+pub const FLOOR: f64 = durer_math::scale::pow2(-1000);
 
 /// `K[k][j]`, the factor of `u^j (1-u)^(n-j)` in `(2u - 1)^k`: whole numbers (M. Krawtchouk, 1929),
 /// exact in f64, and `|K[k][j]| <= C(n,j)`.
@@ -76,14 +76,16 @@ impl<const N: usize> Matrix<N> {
 
 /// `N` Bernstein coefficients, each within `e` of the true one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bernstein<T, const N: usize> {
-    pub(crate) b: [T; N],
-    pub(crate) e: f64,
+pub struct Bernstein<T, const N: usize> {
+    /// The coefficients.
+    pub b: [T; N],
+    /// The bound on their errors.
+    pub e: f64,
 }
 
 /// The facts that the signs of Bernstein coefficients prove.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Count {
+pub enum Count {
     /// No root, ends included: the sign is the same all over.
     None,
     /// Exactly one root, a simple one, strictly inside, where the sign turns from minus to plus.
@@ -100,7 +102,7 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
     /// `|K[k][j] / C(n,j)| <= 1`, so errors of coefficients at most add up; each `b_j` takes
     /// `n + 1` products and sums and a division.
     #[inline(always)]
-    pub(crate) fn new(c: &[T; N], slack: f64) -> Self {
+    pub fn new(c: &[T; N], slack: f64) -> Self {
         let unit = (N + 1) as f64 * (T::ADD + T::MUL) + T::DIV;
         let size = c.iter().fold(0.0, |sum, c| sum + c.to_f64().abs());
         // Loops: functions of arrays are too large to be inlined, and by themselves would be
@@ -123,7 +125,7 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
 
     /// The facts that the signs prove.
     #[inline(always)]
-    pub(crate) fn count(&self) -> Count {
+    pub fn count(&self) -> Count {
         // For double-doubles |hi + lo| >= |hi| (1 - U).
         let e = self.e * (1.0 + 4.0 * f64::EPSILON);
         let (mut plus, mut minus) = (0_u32, 0_u32);
@@ -157,26 +159,26 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
 
     /// The one sign that the polynomial certainly has, ends included: plus is `true`.
     #[inline(always)]
-    pub(crate) fn one_sign(&self) -> Option<bool> {
+    pub fn one_sign(&self) -> Option<bool> {
         (self.count() == Count::None).then(|| self.b[0].to_f64() > 0.0)
     }
 
     /// Whether any coefficient's sign is certain.
     #[inline(always)]
-    pub(crate) fn tells(&self) -> bool {
+    pub fn tells(&self) -> bool {
         self.size() > self.e * (1.0 + 8.0 * f64::EPSILON)
     }
 
     /// Whether the sign at the point of a split is certain; the sign of either end is.
     #[inline(always)]
-    pub(crate) fn last_is_certain(&self) -> bool {
+    pub fn last_is_certain(&self) -> bool {
         self.b[N - 1].to_f64().abs() > self.e * (1.0 + 4.0 * f64::EPSILON)
     }
 
     /// The two parts on either side of `u = part`, by P. de Casteljau's scheme: each new
     /// coefficient is a mean of two, so errors add up over its `n` levels and do not grow.
     #[inline(always)]
-    pub(crate) fn split(&self, part: f64) -> (Self, Self) {
+    pub fn split(&self, part: f64) -> (Self, Self) {
         let e = (N - 1) as f64 * (T::ADD + 2.0 * T::MUL);
         let e =
             self.size().mul_add(e * (1.0 + 64.0 * f64::EPSILON), self.e) * (1.0 + 4.0 * f64::EPSILON) + FLOOR;
@@ -197,7 +199,7 @@ impl<const N: usize> Bernstein<f64, N> {
     /// As [`Bernstein::new`], with a rounded inverse in place of the division (one rounding more)
     /// and fused sums.
     #[inline(always)]
-    pub(crate) fn quick(c: &[f64; N], slack: f64) -> Self {
+    pub fn quick(c: &[f64; N], slack: f64) -> Self {
         let unit = (N + 3) as f64 * f64::ADD;
         let size = c.iter().fold(0.0, |sum, c| sum + c.abs());
         let mut b = [0.0_f64; N];
@@ -213,7 +215,7 @@ impl<const N: usize> Bernstein<f64, N> {
     /// Whether all coefficients but the first are of this sign for certain, and the first is not of
     /// the other. If the first is of this sign too, for other reasons, there is no root.
     #[inline(always)]
-    pub(crate) fn stays(&self, positive: bool) -> bool {
+    pub fn stays(&self, positive: bool) -> bool {
         let sign = if positive { 1.0 } else { -1.0 };
         let e = self.e * (1.0 + 4.0 * f64::EPSILON);
         self.b[1..].iter().fold(self.b[0] * sign >= -e, |all, b| all & (b * sign > e))
@@ -221,7 +223,7 @@ impl<const N: usize> Bernstein<f64, N> {
 
     /// Where the control polygon crosses zero, if it does so once: a good guess at the root.
     #[inline(always)]
-    pub(crate) fn guess(&self) -> f64 {
+    pub fn guess(&self) -> f64 {
         let first = self.b[0] > 0.0;
         let turn = self.b.iter().position(|b| (*b > 0.0) != first).unwrap_or(N - 1).max(1);
         let (a, b) = (self.b[turn - 1], self.b[turn]);
@@ -232,8 +234,8 @@ impl<const N: usize> Bernstein<f64, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::TestRng;
     use durer_math::{Dd, Dyadic};
+    use durer_testkit::TestRng;
 
     /// The Bernstein coefficients of the part between `l` and `r`, times `C(n,j)`, exactly: by
     /// substituting and expanding.

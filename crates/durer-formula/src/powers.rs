@@ -8,35 +8,37 @@
 //! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is
 //! [`Powers::UNKNOWN`], and so is all that is made of it.
 
-use crate::roots::bernstein::FLOOR;
 use durer_math::{Comparison, Function, Interval, Joined, Number, U};
+use durer_roots::bernstein::FLOOR;
 
 /// A polynomial of degree up to 16.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Powers {
-    pub(crate) c: [f64; Self::LEN],
-    pub(crate) e: [f64; Self::LEN],
+pub struct Powers {
+    /// The coefficients, from the constant up.
+    pub c: [f64; Self::LEN],
+    /// The bounds on their errors.
+    pub e: [f64; Self::LEN],
     /// Coefficients above are zero.
     degree: usize,
 }
 
 impl Powers {
     /// How many coefficients there are at most.
-    pub(crate) const LEN: usize = 17;
+    pub const LEN: usize = 17;
 
     /// Not known to be a polynomial.
     const UNKNOWN: Self = Self { c: [0.0; Self::LEN], e: [0.0; Self::LEN], degree: Self::LEN };
     const ZERO: Self = Self { degree: 0, ..Self::UNKNOWN };
 
     /// `q + s d`, each within an error.
-    pub(crate) fn line([q, d]: [f64; 2], [e_q, e_d]: [f64; 2]) -> Self {
+    pub fn line([q, d]: [f64; 2], [e_q, e_d]: [f64; 2]) -> Self {
         let mut out = Self { degree: 1, ..Self::ZERO };
         (out.c[0], out.c[1], out.e[0], out.e[1]) = (q, d, e_q, e_d);
         out
     }
 
     /// The degree, or more; `None` if that is too high, or this is no polynomial.
-    pub(crate) fn degree(&self) -> Option<usize> {
+    pub fn degree(&self) -> Option<usize> {
         (self.degree < Self::LEN).then_some(self.degree)
     }
 
@@ -193,9 +195,9 @@ impl Number for Powers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::TestRng;
-    use crate::tape::{Builder, Op, Tape};
+    use crate::{Builder, Op, Tape};
     use durer_math::Dyadic;
+    use durer_testkit::TestRng;
 
     /// What is formed of three lines by sums and products is within the bounds of what exact
     /// numbers, anywhere within theirs, form.
@@ -258,7 +260,7 @@ mod tests {
 
     #[test]
     fn what_is_no_polynomial_is_not_known() {
-        let degree = |f: &dyn Fn(&mut Builder, [crate::tape::NodeId; 3]) -> crate::tape::NodeId| {
+        let degree = |f: &dyn Fn(&mut Builder, [crate::NodeId; 3]) -> crate::NodeId| {
             let mut b = Builder::new();
             let inputs = [0, 1, 2].map(|i| b.input(i).unwrap());
             let root = f(&mut b, inputs);
@@ -270,7 +272,7 @@ mod tests {
         assert_eq!(degree(&|b, [x, ..]| b.push(Op::Sqrt(x)).unwrap()), None);
         assert_eq!(degree(&|b, [x, y, _]| b.push(Op::Div(x, y)).unwrap()), None);
         assert_eq!(Powers::powi(&Powers::UNKNOWN, 0), Powers::UNKNOWN);
-        let hidden = |b: &mut Builder, [x, y, _]: [crate::tape::NodeId; 3]| {
+        let hidden = |b: &mut Builder, [x, y, _]: [crate::NodeId; 3]| {
             let least = b.push(Op::Min(x, y)).unwrap();
             let square = b.push(Op::Sqr(least)).unwrap();
             b.push(Op::Sub(square, x)).unwrap()

@@ -185,7 +185,7 @@ pub(super) fn common_factor(a: &[Dyadic], b: &[Dyadic]) -> Option<(Poly, Poly)> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::TestRng;
+    use durer_testkit::TestRng;
 
     fn times(p: &[Dyadic], q: &[Dyadic]) -> Poly {
         let mut out = vec![Dyadic::ZERO; p.len() + q.len() - 1];

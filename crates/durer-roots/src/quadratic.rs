@@ -26,7 +26,7 @@ pub struct Quadratic<T> {
 
 /// The behaviour of a quadratic at a root. It is negative inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Crossing {
+pub enum Crossing {
     /// It falls through zero.
     In,
     /// It rises through zero.
@@ -39,36 +39,41 @@ pub(crate) enum Crossing {
 
 /// A root in its bracket.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LineRoot {
-    pub(crate) s: f64,
-    pub(crate) lo: f64,
-    pub(crate) hi: f64,
-    pub(crate) crossing: Crossing,
+pub struct LineRoot {
+    /// The place: a rounded value in the bracket.
+    pub s: f64,
+    /// The lower end of the bracket.
+    pub lo: f64,
+    /// The upper end of the bracket.
+    pub hi: f64,
+    /// What the line does there.
+    pub crossing: Crossing,
 }
 
 /// The roots that matter, in no order.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LineRoots {
-    pub(crate) roots: [Option<LineRoot>; 2],
+pub struct LineRoots {
+    /// The roots.
+    pub roots: [Option<LineRoot>; 2],
     /// There is no root, and all of the line is strictly outside.
-    pub(crate) outside: bool,
+    pub outside: bool,
 }
 
 /// Where roots matter, and how narrow their brackets should be.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// Roots below are of no interest.
-    pub(crate) lo: f64,
+    pub lo: f64,
     /// Roots above are of no interest.
-    pub(crate) hi: f64,
+    pub hi: f64,
     /// `t = 2^k (origin + s)`.
-    pub(crate) origin: f64,
+    pub origin: f64,
     /// How wide a bracket may be, relative to `max(|t|, size / |d|)`.
-    pub(crate) width: f64,
+    pub width: f64,
 }
 
 /// 24 to 48 ulp: `U |t|` is between half an ulp of `t` and one.
-pub(crate) const NARROW: f64 = 48.0 * U;
+pub const NARROW: f64 = 48.0 * U;
 
 impl Limits {
     /// In units of `s` sizes are about 1, and `|d|` is about 2. For unbounded surfaces the distance
@@ -81,10 +86,13 @@ impl Limits {
 
 /// The number `value 2^k` in its enclosure, and its sign if that is certain.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SignedEnclosure {
-    pub(crate) value: EFloat,
-    pub(crate) k: i32,
-    pub(crate) sign: Option<Ordering>,
+pub struct SignedEnclosure {
+    /// The value, and a bound on its error.
+    pub value: EFloat,
+    /// The exponent of its factor.
+    pub k: i32,
+    /// The sign; `None` if it is not certain.
+    pub sign: Option<Ordering>,
 }
 
 impl From<EFloat> for SignedEnclosure {
@@ -110,7 +118,7 @@ impl From<&Dyadic> for SignedEnclosure {
 
 impl SignedEnclosure {
     /// The number with an exponent of its own, so that no size is too large or too small.
-    pub(crate) fn of_any_size(x: &Dyadic) -> Self {
+    pub fn of_any_size(x: &Dyadic) -> Self {
         let k = x.exponent().and_then(|e| i32::try_from(e).ok()).unwrap_or(0);
         Self { k, ..Self::from(&x.clone().scale2(-k)) }
     }
@@ -118,7 +126,7 @@ impl SignedEnclosure {
 
 impl Quadratic<Dyadic> {
     /// Whether one of the two is a multiple of the other.
-    pub(crate) fn is_parallel_to(&self, o: &Self) -> bool {
+    pub fn is_parallel_to(&self, o: &Self) -> bool {
         let same = |x: &Dyadic, y: &Dyadic, u: &Dyadic, v: &Dyadic| (&(x * v) - &(y * u)).is_zero();
         same(&self.a, &self.b, &o.a, &o.b)
             && same(&self.b, &self.c, &o.b, &o.c)
@@ -128,12 +136,12 @@ impl Quadratic<Dyadic> {
 
 impl<T: Ring> Quadratic<T> {
     /// `B² - AC`.
-    pub(crate) fn discriminant(&self) -> T {
+    pub fn discriminant(&self) -> T {
         self.b.clone().square() - self.a.clone() * self.c.clone()
     }
 
     /// The value at `n / m`, times `m²`.
-    pub(crate) fn at_ratio(&self, n: &T, m: &T) -> T {
+    pub fn at_ratio(&self, n: &T, m: &T) -> T {
         let (an, bm) = (self.a.clone() * n.clone(), self.b.clone() * m.clone());
         (an + bm.scale2(1)) * n.clone() + self.c.clone() * m.clone().square()
     }
@@ -153,7 +161,7 @@ impl Quadratic<Dyadic> {
     /// Times the power of two that makes the larger of `|B|` and `√|B² - AC|` about one, so that
     /// f64 can hold what matters.
     #[must_use]
-    pub(crate) fn at_unit_size(self) -> Self {
+    pub fn at_unit_size(self) -> Self {
         let half = |x: Option<i64>| x.map(|e| e.div_euclid(2));
         let Some(size) = self.b.exponent().max(half(self.discriminant().exponent())) else { return self };
         let k = i32::try_from(-size).unwrap_or(0);
@@ -164,7 +172,7 @@ impl Quadratic<Dyadic> {
 impl Quadratic<EFloat> {
     /// The value at `s`.
     #[inline(always)]
-    pub(crate) fn at(&self, s: EFloat) -> EFloat {
+    pub fn at(&self, s: EFloat) -> EFloat {
         // Doubling is exact.
         let b = EFloat::with_error(2.0 * self.b.v, 2.0 * self.b.e);
         (self.a * s + b) * s + self.c
@@ -172,7 +180,7 @@ impl Quadratic<EFloat> {
 
     /// `B² - AC` with Kahan's difference.
     #[inline(always)]
-    pub(crate) fn kahan_discriminant(&self) -> EFloat {
+    pub fn kahan_discriminant(&self) -> EFloat {
         let (a, b, c) = (self.a, self.b, self.c);
         let v = difference_of_products(b.v, b.v, a.v, c.v);
         let inherited = b.e * (2.0 * b.v.abs() + b.e) + (a.v.abs() * c.e + a.e * (c.v.abs() + c.e));
@@ -207,7 +215,7 @@ fn scaled(x: EFloat, k: i32) -> EFloat {
 /// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it
 /// and `b` have the exponent 0.
 #[inline(always)]
-pub(crate) fn solve(
+pub fn solve(
     a: SignedEnclosure,
     b: SignedEnclosure,
     c: SignedEnclosure,
@@ -263,12 +271,7 @@ pub(crate) fn solve(
 
 /// A root, if it is within the limits; `None` if its bracket is too wide.
 #[inline(always)]
-pub(crate) fn admit(
-    root: EFloat,
-    offset: f64,
-    crossing: Crossing,
-    limits: &Limits,
-) -> Option<Option<LineRoot>> {
+pub fn admit(root: EFloat, offset: f64, crossing: Crossing, limits: &Limits) -> Option<Option<LineRoot>> {
     let root = if offset == 0.0 { root } else { root + EFloat::exact(offset) };
     let (lo, hi) = (root.lo(), root.hi());
     if hi < limits.lo || lo > limits.hi {
@@ -283,7 +286,7 @@ pub(crate) fn admit(
 /// Where a number lies relative to a root of a quadratic, from the quadratic's sign (`value`) and
 /// slope there and the sign of `A`; `None` if these do not tell.
 #[inline(always)]
-pub(crate) fn locate(
+pub fn locate(
     crossing: Crossing,
     a: Option<Ordering>,
     value: Option<Ordering>,
@@ -310,7 +313,7 @@ fn times(a: Ordering, b: Ordering) -> Ordering {
 }
 
 /// The sign of an exact number, which is always certain.
-pub(crate) fn exact_sign(x: &Dyadic) -> Ordering {
+pub fn exact_sign(x: &Dyadic) -> Ordering {
     x.sign().unwrap_or(Equal)
 }
 
@@ -318,7 +321,7 @@ pub(crate) fn exact_sign(x: &Dyadic) -> Ordering {
 ///
 /// With `A_p q - A_q p = 2 l₁ s + l₀`, which has the sign of `A_p q` at the root, the question
 /// becomes on which side of the root the rational number `-l₀ / 2 l₁` lies, and `p` itself tells.
-pub(crate) fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
+pub fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
     let sign_a = exact_sign(&p.a);
     if sign_a == Equal {
         return exact_sign(&q.at_ratio(&-p.c.clone(), &p.b.clone().scale2(1)));
@@ -336,7 +339,7 @@ pub(crate) fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<
 }
 
 /// The exact sign of the slope of `q` at a root of `p`.
-pub(crate) fn slope_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
+pub fn slope_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
     sign_at_root(p, root, &q.derivative())
 }
 
@@ -348,12 +351,12 @@ fn locate_ratio(p: &Quadratic<Dyadic>, root: Crossing, n: &Dyadic, m: &Dyadic) -
 }
 
 /// Where the exact number `s` lies relative to a root of `p`.
-pub(crate) fn locate_exact(p: &Quadratic<Dyadic>, root: Crossing, s: &Dyadic) -> Ordering {
+pub fn locate_exact(p: &Quadratic<Dyadic>, root: Crossing, s: &Dyadic) -> Ordering {
     locate_ratio(p, root, s, &Dyadic::from(1.0))
 }
 
 /// Compares a root of `p` with a root of `q`, exactly.
-pub(crate) fn compare_roots(
+pub fn compare_roots(
     (p, p_root): (&Quadratic<Dyadic>, Crossing),
     (q, q_root): (&Quadratic<Dyadic>, Crossing),
 ) -> Ordering {

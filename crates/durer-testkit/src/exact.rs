@@ -434,13 +434,14 @@ impl<T: Clone> LineCache<T> {
 }
 
 /// An oracle that computes the crossings of each line once.
-pub(super) struct Cached<'a> {
+pub struct Cached<'a> {
     oracle: &'a dyn Oracle,
     crossings: LineCache<Vec<Crossing>>,
 }
 
 impl<'a> Cached<'a> {
-    pub(super) fn new(oracle: &'a dyn Oracle) -> Self {
+    /// The same oracle with a memory.
+    pub fn new(oracle: &'a dyn Oracle) -> Self {
         Self { oracle, crossings: LineCache::default() }
     }
 }

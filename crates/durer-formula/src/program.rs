@@ -141,7 +141,7 @@ impl Tape {
     }
 
     /// A number that equal tapes share, and others hardly ever.
-    pub(crate) fn fingerprint(&self) -> u64 {
+    pub fn fingerprint(&self) -> u64 {
         // Whoever meets an equal number compares the steps: the multiplication of rustc's hash will
         // do.
         self.ops.iter().fold(0, |hash, op| {
@@ -197,7 +197,7 @@ impl Tape {
 
     /// The gradient of what decides between two sides where the formula jumps within `r` of `p`,
     /// per axis: a normal of the wall there, of either orientation. `None` where nothing jumps.
-    pub(crate) fn wall(&self, p: Point3, r: f64) -> Option<Vec3> {
+    pub fn wall(&self, p: Point3, r: f64) -> Option<Vec3> {
         with_memory(&DUALS, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
                 #[inline(always)]
@@ -246,7 +246,7 @@ impl Tape {
     }
 
     /// The polynomial that it is where the coordinates are these.
-    pub(crate) fn along(&self, x: &[Powers; 3]) -> Powers {
+    pub fn along(&self, x: &[Powers; 3]) -> Powers {
         with_memory(&POWERS, self.ops.len(), zero(), |registers| {
             Isa::detect().run(
                 #[inline(always)]
@@ -277,7 +277,7 @@ impl Tape {
     /// Bounds on eight boxes, as [`Tape::shortened`]. Of each box that `wanted` names, and on which
     /// something is decided, `take` is shown what, as words that say all that a shorter tape
     /// depends on, and how to make that.
-    pub(crate) fn decided_on(
+    pub fn decided_on(
         &self,
         x: &[I8; 3],
         wanted: impl Fn(usize, &I8) -> bool,

@@ -28,7 +28,7 @@ use durer_math::scale::ldexp;
 use durer_math::{Dyadic, Ring};
 
 /// A polynomial and what is known of its real roots.
-pub(crate) struct ExactRoots {
+pub struct ExactRoots {
     /// As it was given.
     whole: Poly,
     /// The same roots, each once.
@@ -37,12 +37,13 @@ pub(crate) struct ExactRoots {
 
 /// One root by itself: the only one between `l` and `r`, which are no roots.
 #[derive(Clone, Debug)]
-pub(crate) struct Isolated {
+pub struct Isolated {
     l: Dyadic,
     r: Dyadic,
-    /// The sign of the polynomial before and after.
-    pub(crate) before: Ordering,
-    pub(crate) after: Ordering,
+    /// The sign of the polynomial before the root.
+    pub before: Ordering,
+    /// The sign of the polynomial after the root.
+    pub after: Ordering,
     /// The sign, after the root, of the polynomial that has it once.
     turn: Ordering,
 }
@@ -50,7 +51,7 @@ pub(crate) struct Isolated {
 impl Isolated {
     /// A number behind the root, and not behind the next one; no root, as long as the interval has
     /// not been narrowed.
-    pub(crate) fn end(&self) -> &Dyadic {
+    pub fn end(&self) -> &Dyadic {
         &self.r
     }
 }
@@ -146,7 +147,7 @@ fn reach(p: &[Dyadic]) -> Option<Dyadic> {
 impl ExactRoots {
     /// The roots of the polynomial with these coefficients, the constant first. `None` if it is
     /// zero everywhere.
-    pub(crate) fn new(coefficients: Vec<Dyadic>) -> Option<Self> {
+    pub fn new(coefficients: Vec<Dyadic>) -> Option<Self> {
         let whole = trimmed(coefficients);
         if whole.is_empty() {
             return None;
@@ -158,7 +159,7 @@ impl ExactRoots {
 
     /// The distinct roots strictly between two numbers which are no roots, ascending, each by
     /// itself.
-    pub(crate) fn isolate(&self, from: &Dyadic, to: &Dyadic) -> Vec<Isolated> {
+    pub fn isolate(&self, from: &Dyadic, to: &Dyadic) -> Vec<Isolated> {
         let (mut out, mut open) = (vec![], vec![]);
         let far = reach(&self.simple).unwrap_or(Dyadic::from(1.0));
         // Zero is a simple root, if it is one; the others are no nearer than the inverses of those
@@ -252,12 +253,12 @@ impl ExactRoots {
     }
 
     /// A number near `x` which is no root, not above it (`away` is -1) or not below it (+1).
-    pub(crate) fn beside(&self, x: f64, away: f64) -> Dyadic {
+    pub fn beside(&self, x: f64, away: f64) -> Dyadic {
         self.beside_exact(Dyadic::from(x), away)
     }
 
     /// The same for an exact number.
-    pub(crate) fn beside_exact(&self, mut at: Dyadic, away: f64) -> Dyadic {
+    pub fn beside_exact(&self, mut at: Dyadic, away: f64) -> Dyadic {
         let mut step = Dyadic::from(away);
         if let Some(e) = at.exponent() {
             step = step.scale2((e - 60) as i32);
@@ -282,7 +283,7 @@ impl ExactRoots {
 
     /// Narrows a root's interval until `enough` says so of its bracket in f64, or until f64 can do
     /// no better.
-    pub(crate) fn bracket(&self, root: &mut Isolated, enough: impl Fn(f64, f64) -> bool) -> (f64, f64) {
+    pub fn bracket(&self, root: &mut Isolated, enough: impl Fn(f64, f64) -> bool) -> (f64, f64) {
         loop {
             let (lo, hi) = (root.l.to_bounds().0, root.r.to_bounds().1);
             if lo == hi || enough(lo, hi) || (lo.next_up() >= hi && lo.is_finite() && hi.is_finite()) {
@@ -293,7 +294,7 @@ impl ExactRoots {
     }
 
     /// Narrows a root's interval until it is no wider than `width`, and shows it.
-    pub(crate) fn narrowed(&self, root: &mut Isolated, width: &Dyadic) -> (Dyadic, Dyadic) {
+    pub fn narrowed(&self, root: &mut Isolated, width: &Dyadic) -> (Dyadic, Dyadic) {
         while &root.r - &root.l > *width {
             self.halve(root);
         }
@@ -301,7 +302,7 @@ impl ExactRoots {
     }
 
     /// Where a number lies relative to a root.
-    pub(crate) fn compare(&self, x: &Dyadic, root: &Isolated) -> Ordering {
+    pub fn compare(&self, x: &Dyadic, root: &Isolated) -> Ordering {
         if root.l == root.r {
             return x.cmp(&root.l);
         }
@@ -319,7 +320,7 @@ impl ExactRoots {
     }
 
     /// The sign of another polynomial (constant term first) at a root.
-    pub(crate) fn sign_at_root(&self, q: &[Dyadic], root: &Isolated) -> Ordering {
+    pub fn sign_at_root(&self, q: &[Dyadic], root: &Isolated) -> Ordering {
         let q = trimmed(q.to_vec());
         let mut root = root.clone();
         if root.l == root.r {
@@ -445,7 +446,7 @@ mod tests {
 
     #[test]
     fn roots_are_those_of_sturms_theorem() {
-        use crate::laws::{Exact, TestRng, real_roots};
+        use durer_testkit::{Exact, TestRng, real_roots};
         let mut met = 0;
         for seed in 0..300 {
             let mut dice = TestRng::new(seed);

@@ -11,6 +11,13 @@ pub const MOST_STEPS: usize = 100_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub(crate) u32);
 
+impl NodeId {
+    /// The number of the step, from 0.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// One step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
@@ -71,7 +78,7 @@ pub enum Op {
 impl Op {
     /// The same step with its operands renamed.
     #[must_use]
-    pub(crate) fn renamed(self, f: impl Fn(NodeId) -> NodeId) -> Self {
+    pub fn renamed(self, f: impl Fn(NodeId) -> NodeId) -> Self {
         match self {
             Self::Input(_) | Self::Constant(_) => self,
             Self::Neg(a) => Self::Neg(f(a)),

@@ -21,7 +21,7 @@
 use durer_math::U;
 
 /// Pays for the rounding of a few f64 operations on numbers that are bounds themselves.
-pub(crate) const ROUNDED: f64 = 1.0 + 128.0 * U;
+pub const ROUNDED: f64 = 1.0 + 128.0 * U;
 /// Steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 10;
 /// A zero is accepted where slopes change by less than this part of themselves.
@@ -29,27 +29,27 @@ const STEADY: f64 = 0.5;
 
 /// Both functions near a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Local {
+pub struct Local {
     /// The values at the point.
-    pub(crate) f: [f64; 2],
+    pub f: [f64; 2],
     /// The slopes there: of function `i` along unknown `k`.
-    pub(crate) j: [[f64; 2]; 2],
+    pub j: [[f64; 2]; 2],
 }
 
 /// Bounds of both functions in a box, for each function.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// Bounds on the errors of the values.
-    pub(crate) e: [f64; 2],
+    pub e: [f64; 2],
     /// Bounds on the errors of the slopes.
-    pub(crate) e_j: [f64; 2],
+    pub e_j: [f64; 2],
     /// Bounds on the second derivatives: along the first unknown, mixed, along the second.
-    pub(crate) h: [[f64; 3]; 2],
+    pub h: [[f64; 3]; 2],
 }
 
 /// The possible content of a box.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Content {
+pub enum Content {
     /// No zero.
     Nothing,
     /// At most one zero, which then is near this place, counted from the middle.
@@ -60,20 +60,20 @@ pub(crate) enum Content {
 
 /// One zero, and proof of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Zero {
+pub struct Zero {
     /// The zero, rounded.
-    pub(crate) x: [f64; 2],
+    pub x: [f64; 2],
     /// It is within this distance of `x`, in each unknown.
-    pub(crate) radius: [f64; 2],
+    pub radius: [f64; 2],
     /// It is the only one within this distance of `x`.
-    pub(crate) alone: f64,
+    pub alone: f64,
     /// The sign of the determinant of the slopes there.
-    pub(crate) sign: i8,
+    pub sign: i8,
 }
 
 /// An approximate inverse of the slopes.
 #[inline(always)]
-pub(crate) fn inverse(j: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+pub fn inverse(j: &[[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let det = j[0][0].mul_add(j[1][1], -(j[0][1] * j[1][0]));
     let by = 1.0 / det;
     let y = [[j[1][1] * by, -j[0][1] * by], [-j[1][0] * by, j[0][0] * by]];
@@ -110,7 +110,7 @@ impl Limits {
     /// What the box of half-width `half` about the point of `at` holds. A box may be counted as one
     /// with at most one zero only if that also holds for half-width `wide`.
     #[inline(always)]
-    pub(crate) fn content(&self, at: &Local, half: f64, wide: f64) -> Content {
+    pub fn content(&self, at: &Local, half: f64, wide: f64) -> Content {
         let mut rest = [0.0; 2];
         for i in 0..2 {
             let h = &self.h[i];
@@ -140,7 +140,7 @@ impl Limits {
     /// `region` is where the limits hold, from the least to the greatest of each unknown, and
     /// `within` where errors are known, and so where the functions may be evaluated.
     #[inline(always)]
-    pub(crate) fn zero(
+    pub fn zero(
         &self,
         mut x: [f64; 2],
         (region, within): (&[[f64; 2]; 2], &[[f64; 2]; 2]),
@@ -206,7 +206,7 @@ impl Limits {
 /// For functions whose slopes are bounded on boxes, as those of formulas are by intervals: nothing
 /// is asked of second derivatives.
 #[inline(always)]
-pub(crate) fn zero_in(at: &Local, (e, e_j): (&[f64; 2], &[f64; 2]), r: f64) -> Option<Zero> {
+pub fn zero_in(at: &Local, (e, e_j): (&[f64; 2], &[f64; 2]), r: f64) -> Option<Zero> {
     let y = inverse(&at.j)?;
     let (mut x, mut radius) = ([0.0; 2], [0.0; 2]);
     for i in 0..2 {

@@ -13,7 +13,7 @@ pub(crate) type Jet<T> = Dual<T, Gradient<T>>;
 
 /// The steps of three formulas of `u` and `v`, each step once; shared by all who use them.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct VectorTape {
+pub struct VectorTape {
     ops: Arc<[Op]>,
     outputs: [NodeId; 3],
 }
@@ -33,7 +33,7 @@ impl VectorTape {
     /// # Panics
     ///
     /// If one takes more than two.
-    pub(crate) fn new(formulas: [&Formula; 3]) -> Result<Self, FormulaError> {
+    pub fn new(formulas: [&Formula; 3]) -> Result<Self, FormulaError> {
         assert!(formulas.iter().all(|f| f.inputs() <= 2), "these are functions of u and v");
         let mut builder = Builder::new();
         let inputs = [builder.input(0)?, builder.input(1)?];
@@ -45,7 +45,7 @@ impl VectorTape {
     }
 
     /// The tape of three steps of a builder, whose inputs are `u` and `v`.
-    pub(crate) fn of(builder: &Builder, roots: [NodeId; 3]) -> Self {
+    pub fn of(builder: &Builder, roots: [NodeId; 3]) -> Self {
         let ops = builder.ops();
         let mut used = vec![false; ops.len()];
         for root in roots {
@@ -72,18 +72,18 @@ impl VectorTape {
     }
 
     /// Bounds of the values on eight boxes.
-    pub(crate) fn bounds(&self, x: &[I8; 2]) -> [I8; 3] {
+    pub fn bounds(&self, x: &[I8; 2]) -> [I8; 3] {
         self.run(x, &BOXES)
     }
 
     /// Bounds of the values on eight boxes, and of the slopes there.
-    pub(crate) fn jets(&self, x: &[I8; 2]) -> [Jet<I8>; 3] {
+    pub fn jets(&self, x: &[I8; 2]) -> [Jet<I8>; 3] {
         let [u, v] = *x;
         self.run(&[(u, 0), (v, 1)].map(|(v, axis)| Dual { v, d: Gradient::of_axis(axis) }), &JETS)
     }
 
     /// The rounded values and slopes at a point; NaN where they are undefined.
-    pub(crate) fn jet(&self, [u, v]: [f64; 2]) -> [Jet<f64>; 3] {
+    pub fn jet(&self, [u, v]: [f64; 2]) -> [Jet<f64>; 3] {
         self.run(&[(u, 0), (v, 1)].map(|(v, axis)| Dual { v, d: Gradient::of_axis(axis) }), &NUMBERS)
     }
 
@@ -113,7 +113,7 @@ impl VectorTape {
 }
 
 /// Eight boxes of parameters, or eight points.
-pub(crate) fn lanes(boxes: &[[[f64; 2]; 2]; 8]) -> [I8; 2] {
+pub fn lanes(boxes: &[[[f64; 2]; 2]; 8]) -> [I8; 2] {
     [0, 1].map(|k| {
         let end = |e: usize| F8(boxes.map(|b| b[k][e]));
         I8::new(end(0), end(1))

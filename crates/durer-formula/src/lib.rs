@@ -19,14 +19,14 @@ mod vector;
 
 pub use expr::Expr;
 pub use formula::{Builder, Formula, FormulaError, MOST_STEPS, NodeId, Op};
-pub(crate) use powers::Powers;
+pub use powers::Powers;
 pub use program::Tape;
-pub(crate) use vector::{VectorTape, lanes};
+pub use vector::{VectorTape, lanes};
 
 use durer_math::{F8, I8, Interval};
 
 /// The unit vectors in the first lanes: what `axis` contributes to each.
-pub(crate) fn seed(axis: usize) -> I8 {
+pub fn seed(axis: usize) -> I8 {
     let mut d = I8::new(F8::ZERO, F8::ZERO);
     d.set_lane(axis, Interval { lo: 1.0, hi: 1.0 });
     d
