@@ -90,18 +90,13 @@ fn with_polys(scene: &Scene) -> Option<Scene> {
 
 /// With `hierarchy off` in all meshes, if the scene has clipped unions.
 fn without_hierarchy(scene: &Scene) -> Option<Scene> {
-    let mut is_clipped = false;
-    let mut all = scene.clone();
-    for node in all.declared.iter_mut().chain(&mut all.objects) {
-        node.each(&mut |node| {
-            is_clipped |= node.open.contains("union {") && node.said.iter().any(|s| s.open == "clipped_by {");
-        });
-    }
+    let mut has_clipped_union = false;
+    each_clipped_union(&mut scene.clone(), |_| has_clipped_union = true);
     let faces = "<0, 1, 2> }";
     let off = |open: &str| {
         open.contains("mesh2 {").then(|| open.replacen(faces, &format!("{faces} hierarchy off"), 1))
     };
-    is_clipped.then(|| rewritten(scene, off)).flatten()
+    has_clipped_union.then(|| rewritten(scene, off)).flatten()
 }
 
 /// With an isosurface for each superellipsoid.
@@ -142,19 +137,36 @@ fn with_things_apart(scene: &Scene) -> Option<Scene> {
 /// Without `no_shadow` inside clipped unions. Declared objects may stand in one.
 fn without_no_shadow(scene: &Scene) -> Option<Scene> {
     let mut less = scene.clone();
-    let mut is_clipped = false;
-    for node in less.declared.iter_mut().chain(&mut less.objects) {
-        node.each(&mut |node| {
-            if node.open.contains("union {") && node.said.iter().any(|s| s.open == "clipped_by {") {
-                is_clipped = true;
-                node.parts.iter_mut().for_each(without_word);
-            }
-        });
-    }
-    if is_clipped {
+    let mut has_clipped_union = false;
+    each_clipped_union(&mut less, |node| {
+        has_clipped_union = true;
+        node.parts.iter_mut().for_each(without_word);
+    });
+    if has_clipped_union {
         less.declared.iter_mut().for_each(without_word);
     }
     (less != *scene).then_some(less)
+}
+
+/// Calls a function with all clipped unions, and with all clipped copies of declared ones.
+fn each_clipped_union(scene: &mut Scene, mut call: impl FnMut(&mut Node)) {
+    let mut unions = vec!["union {".to_owned()];
+    for node in &scene.declared {
+        let declared = node.open.strip_prefix("#declare ").and_then(|open| open.split_once(" = "));
+        if let Some((name, object)) = declared
+            && unions.iter().any(|u| object.starts_with(u))
+        {
+            unions.push(format!("object {{ {name}"));
+        }
+    }
+    for node in scene.declared.iter_mut().chain(&mut scene.objects) {
+        node.each(&mut |node| {
+            let is_union = unions.iter().any(|u| node.open.contains(u));
+            if is_union && node.said.iter().any(|s| s.open == "clipped_by {") {
+                call(node);
+            }
+        });
+    }
 }
 
 fn without_word(node: &mut Node) {
