@@ -15,10 +15,11 @@ pub(super) struct Reworded {
 }
 
 /// All entries of this kind.
-pub(super) const REWORDED: [Reworded; 3] = [
+pub(super) const REWORDED: [Reworded; 4] = [
     Reworded { entry: "`interior_texture` stays inside.", reworded: with_polys },
     Reworded { entry: "A mesh in a clipped union", reworded: without_hierarchy },
     Reworded { entry: "Superellipsoids keep their far side.", reworded: with_isosurfaces },
+    Reworded { entry: "A disc has no inside.", reworded: with_polygons },
 ];
 
 /// One entry of docs/differences.md.
@@ -30,10 +31,9 @@ pub(super) struct Known {
 }
 
 /// All entries that a scene of the generator can have.
-pub(super) const ALL: [Known; 5] = [
+pub(super) const ALL: [Known; 4] = [
     Known { entry: "`no_shadow` holds for every part of a union.", without: without_no_shadow },
     Known { entry: "A camera exactly on a clear sphere", without: without_camera_on_a_surface },
-    Known { entry: "A disc has no inside.", without: with_turned_discs },
     Known { entry: "Two surfaces at the same place.", without: without_second_ceiling },
     Known { entry: "Two surfaces at the same place.", without: with_things_apart },
 ];
@@ -114,6 +114,37 @@ fn with_isosurfaces(scene: &Scene) -> Option<Scene> {
     })
 }
 
+/// With a square for each disc, clipped by a ball with the disc's centre and radius.
+fn with_polygons(scene: &Scene) -> Option<Scene> {
+    rewritten(scene, |open| {
+        let (before, all, after) = numbers::<7>(open, "disc {")?;
+        let [cx, cy, cz, nx, ny, nz, radius] = all.map(|number| number.parse::<f64>().unwrap_or(f64::NAN));
+        // Two vectors across the normal n, such that n points where u x v does.
+        let scaled = |v: [f64; 3]| {
+            let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+            v.map(|c| c * 1.2 * radius / length)
+        };
+        let u = scaled(if nx.abs() > nz.abs() { [-ny, nx, 0.0] } else { [0.0, -nz, ny] });
+        let n = [nx, ny, nz];
+        let v = scaled([0, 1, 2].map(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            n[j] * u[k] - n[k] * u[j]
+        }));
+        let corner = |a: f64, b: f64| {
+            format!(
+                "<{:?}, {:?}, {:?}>",
+                cx + a * u[0] + b * v[0],
+                cy + a * u[1] + b * v[1],
+                cz + a * u[2] + b * v[2]
+            )
+        };
+        let corners =
+            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| corner(a, b));
+        let clip = format!("clipped_by {{ sphere {{ <{cx:?}, {cy:?}, {cz:?}>, {radius:?} }} }}");
+        Some(format!("{before}polygon {{ 5, {} {clip}{after}", corners.join(", ")))
+    })
+}
+
 /// With the declared objects apart that the scene shows more than once.
 fn with_things_apart(scene: &Scene) -> Option<Scene> {
     let mut less = scene.clone();
@@ -190,22 +221,6 @@ fn without_second_ceiling(scene: &Scene) -> Option<Scene> {
         ceilings += usize::from(node.open.contains("plane { y, 3"));
         ceilings < 2 || !node.open.contains("plane { y, 3")
     });
-    (less != *scene).then_some(less)
-}
-
-/// With all discs turned round. The camera then sees them from the other side.
-fn with_turned_discs(scene: &Scene) -> Option<Scene> {
-    let mut less = scene.clone();
-    for node in less.declared.iter_mut().chain(&mut less.objects) {
-        node.each(&mut |node| {
-            // disc { <centre>, <normal>, radius
-            if let Some(at) =
-                node.open.find("disc { ").and_then(|d| Some(d + node.open[d..].find(">, <")? + 3))
-            {
-                node.open.insert(at, '-');
-            }
-        });
-    }
     (less != *scene).then_some(less)
 }
 

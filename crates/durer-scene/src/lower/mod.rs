@@ -160,7 +160,7 @@ impl Lowered {
     /// without bounds, then the others, each in the order of the text. A ray that starts on the surface of a solid and goes into it starts inside.
     pub fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
-            if !media.contains(medium) && solid.holds_start(ray) {
+            if solid.holds_start(ray) {
                 media.push(*medium);
             }
         }
@@ -173,8 +173,8 @@ impl Lowered {
         for (medium, solid) in &self.around_camera {
             match solid.side(point) {
                 Side::On => return None,
-                Side::In if !media.contains(medium) => media.push(*medium),
-                Side::In | Side::Out => {}
+                Side::In => media.push(*medium),
+                Side::Out => {}
             }
         }
         Some(media)
@@ -185,7 +185,7 @@ impl Lowered {
     pub fn media_in(&self, region: &Aabb) -> Option<Vec<u32>> {
         let mut media = Vec::new();
         for (medium, solid) in &self.around_camera {
-            if solid.holds_all(region)? && !media.contains(medium) {
+            if solid.holds_all(region)? {
                 media.push(*medium);
             }
         }
