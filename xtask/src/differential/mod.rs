@@ -109,41 +109,62 @@ impl Bench<'_> {
     /// The entries of docs/differences.md that explain why the pictures of a scene differ.
     fn known(&self, shown: &Scene, name: &str) -> Outcome<Option<String>> {
         let name = &format!("{name}-without");
-        let agree = |shown: &Scene, reworded: &Scene| -> Outcome<bool> {
-            let verdict = self.judge_reworded(shown, reworded, name)?;
-            self.remove_all(name);
-            Ok(matches!(verdict, Verdict::Agrees | Verdict::Noise))
-        };
-        for words in &known::REWORDED {
-            let Some(reworded) = (words.reworded)(shown) else { continue };
-            if agree(shown, &reworded)? {
-                return Ok(Some(words.entry.to_owned()));
-            }
-        }
-        if let Some((reworded, entries)) = known::all_reworded(shown)
-            && entries.len() > 1
-            && agree(shown, &reworded)?
-        {
+        if let Some(entries) = self.known_reworded(shown, name)? {
             return Ok(Some(entries.join(" ")));
         }
+        if let Some(entry) = self.known_alone(shown, name)? {
+            return Ok(Some(entry.to_owned()));
+        }
         // One entry is enough for most scenes, two for nearly all others.
-        let singles = known::ALL.iter().filter_map(|k| Some((k.entry.to_owned(), (k.without)(shown)?)));
-        let singles: Vec<(String, Scene)> = singles.collect();
-        let pairs = singles.iter().enumerate().flat_map(|(i, (entry, scene))| {
-            let second = known::ALL[i..].iter();
-            second.filter_map(move |k| Some((format!("{entry} {}", k.entry), (k.without)(scene)?)))
-        });
-        for (entry, without) in singles.iter().cloned().chain(pairs) {
-            if agree(&without, &without)? {
-                return Ok(Some(entry));
+        let without =
+            |scene: &Scene| known::ALL.iter().filter_map(|k| Some((k.entry, (k.without)(scene)?))).collect();
+        let singles: Vec<(&str, Scene)> = without(shown);
+        let mut all: Vec<(Vec<&str>, Scene)> = singles.iter().map(|(e, s)| (vec![*e], s.clone())).collect();
+        for (at, (first, scene)) in singles.iter().enumerate() {
+            let pairs: Vec<(&str, Scene)> = without(scene);
+            let later = pairs.into_iter().filter(|(e, _)| singles[at + 1..].iter().any(|(f, _)| f == e));
+            all.extend(later.map(|(second, scene)| (vec![*first, second], scene)));
+        }
+        for (mut entries, scene) in all {
+            if self.agree(&scene, &scene, name)? {
+                return Ok(Some(entries.join(" ")));
             }
-            if let Some((reworded, entries)) = known::all_reworded(&without)
-                && agree(&without, &reworded)?
-            {
-                return Ok(Some(format!("{entry} {}", entries.join(" "))));
+            if let Some(more) = self.known_reworded(&scene, name)? {
+                entries.extend(more);
+                return Ok(Some(entries.join(" ")));
             }
         }
         Ok(None)
+    }
+
+    /// The entries about surfaces in other words, if POV-Ray draws these as durer draws the scene:
+    /// one that explains all, or else all of them.
+    fn known_reworded(&self, shown: &Scene, name: &str) -> Outcome<Option<Vec<&'static str>>> {
+        let Some((reworded, entries)) = known::all_reworded(shown) else { return Ok(None) };
+        if !self.agree(shown, &reworded, name)? {
+            return Ok(None);
+        }
+        let one = if entries.len() > 1 { self.known_alone(shown, name)? } else { None };
+        Ok(Some(one.map_or(entries, |entry| vec![entry])))
+    }
+
+    /// The entry about surfaces in other words that explains all.
+    fn known_alone(&self, shown: &Scene, name: &str) -> Outcome<Option<&'static str>> {
+        for words in &known::REWORDED {
+            if let Some(reworded) = (words.reworded)(shown)
+                && self.agree(shown, &reworded, name)?
+            {
+                return Ok(Some(words.entry));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether durer's picture of a scene and POV-Ray's of the same one in other words agree.
+    fn agree(&self, shown: &Scene, reworded: &Scene, name: &str) -> Outcome<bool> {
+        let verdict = self.judge_reworded(shown, reworded, name)?;
+        self.remove_all(name);
+        Ok(matches!(verdict, Verdict::Agrees | Verdict::Noise))
     }
 
     /// Removes the scene and the pictures of this name.
