@@ -144,6 +144,25 @@ fn total_reflection_begins_at_the_critical_angle() {
     }
 }
 
+/// Parts of one object that have no interior share one: a ray that is in the outer ball leaves it at
+/// the inner one, which lies in glass. Leaving what was not entered last bends no ray.
+#[test]
+fn parts_without_an_interior_share_one() {
+    let outer = || ball(Point3::ORIGIN, 3.0).with_texture(clear());
+    let inner = || ball(Point3::ORIGIN, 1.0).with_texture(clear());
+    let between = || ball(Point3::ORIGIN, 2.0).with_texture(clear()).with_interior(glass(1.5));
+    // The ray meets the glass where its surface leans by `lean`, and bends to the middle.
+    let lean = 0.4;
+    let eye = Point3::new(2.0 * sin(lean), 10.0, 0.0);
+    let bent = lean - asin(sin(lean) / 1.5);
+    let along = Vec3::new(-sin(bent), -cos(bent), 0.0);
+    let target = Point3::new(eye.x, 2.0 * cos(lean), 0.0) + along * 1.7;
+    let spot = || ball(target, 1e-6).with_texture(glow());
+    let one = Object::new(Shape::Union(vec![outer(), between(), inner()]));
+    assert_eq!(seen(vec![one, spot()], 0.0, eye, -Vec3::Y, 9), 1.0);
+    assert_eq!(seen(vec![outer(), between(), inner(), spot()], 0.0, eye, -Vec3::Y, 9), 0.0);
+}
+
 #[test]
 fn a_lossless_mirror_in_a_white_world_is_white() {
     for i in 0..10 {

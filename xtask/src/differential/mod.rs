@@ -47,8 +47,8 @@ enum Verdict {
     /// a thousandth, or agree when it renders nothing but the pixel. Then they depend on rounding,
     /// or on the object that POV-Ray remembers from earlier shadow rays and tests twice.
     Noise,
-    /// They agree without what this entry of docs/differences.md describes.
-    Known(&'static str),
+    /// They agree without what these entries of docs/differences.md describe.
+    Known(String),
 }
 
 impl Verdict {
@@ -75,13 +75,20 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     fn judge(&self, shown: &Scene, name: &str) -> Outcome<Verdict> {
-        let text = &shown.text();
+        self.judge_reworded(shown, shown, name)
+    }
+
+    /// As `judge`; POV-Ray renders the scene in other words.
+    fn judge_reworded(&self, shown: &Scene, reworded: &Scene, name: &str) -> Outcome<Verdict> {
         let file = |ending: &str| self.folder.join(format!("{name}{ending}"));
-        let (scene, ours, theirs) = (file(".pov"), file("-durer.png"), file("-povray.png"));
-        std::fs::write(&scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
+        let (ours, theirs) = (file("-durer.png"), file("-povray.png"));
+        // Both programs read one file, which holds the scene for one of them after the other.
+        let scene = file(".pov");
+        write(&scene, &reworded.text())?;
         if self.povray.render(&scene, &theirs, SHOT).is_err() {
             return Ok(Verdict::NoScene);
         }
+        write(&scene, &shown.text())?;
         if let Err(why) = self.durer.render(&scene, &ours, SHOT) {
             let text = why.lines().nth(1).unwrap_or_default();
             let text = text.split_once(": ").map_or(text, |(_, text)| text);
@@ -92,24 +99,72 @@ impl Bench<'_> {
             return Ok(Verdict::Agrees);
         }
         let pictures = (Picture::read(&ours)?, Picture::read(&theirs)?);
-        if self.reproducible(shown, name, &pictures)? <= 1.0 - REQUIRED {
+        if self.reproducible(reworded, name, &pictures)? <= 1.0 - REQUIRED {
             return Ok(Verdict::Noise);
         }
         drawn.write(&file("-difference.png"))?;
         Ok(Verdict::Differs(1.0 - difference.agreeing))
     }
 
-    /// The entry of docs/differences.md that explains why the pictures of a scene differ.
-    fn known(&self, shown: &Scene, name: &str) -> Outcome<Option<&'static str>> {
-        for known in &known::ALL {
-            let Some(without) = (known.without)(shown) else { continue };
-            let verdict = self.judge(&without, &format!("{name}-without"))?;
-            self.remove_all(&format!("{name}-without"));
-            if matches!(verdict, Verdict::Agrees | Verdict::Noise) {
-                return Ok(Some(known.entry));
+    /// The entries of docs/differences.md that explain why the pictures of a scene differ.
+    fn known(&self, shown: &Scene, name: &str) -> Outcome<Option<String>> {
+        let name = &format!("{name}-without");
+        if let Some(entries) = self.known_reworded(shown, name)? {
+            return Ok(Some(entries.join(" ")));
+        }
+        if let Some(entry) = self.known_alone(shown, name)? {
+            return Ok(Some(entry.to_owned()));
+        }
+        // One entry is enough for most scenes, two for nearly all others.
+        let without =
+            |scene: &Scene| known::ALL.iter().filter_map(|k| Some((k.entry, (k.without)(scene)?))).collect();
+        let singles: Vec<(&str, Scene)> = without(shown);
+        let mut all: Vec<(Vec<&str>, Scene)> = singles.iter().map(|(e, s)| (vec![*e], s.clone())).collect();
+        for (at, (first, scene)) in singles.iter().enumerate() {
+            let pairs: Vec<(&str, Scene)> = without(scene);
+            let later = pairs.into_iter().filter(|(e, _)| singles[at + 1..].iter().any(|(f, _)| f == e));
+            all.extend(later.map(|(second, scene)| (vec![*first, second], scene)));
+        }
+        for (mut entries, scene) in all {
+            if self.agree(&scene, &scene, name)? {
+                return Ok(Some(entries.join(" ")));
+            }
+            if let Some(more) = self.known_reworded(&scene, name)? {
+                entries.extend(more);
+                return Ok(Some(entries.join(" ")));
             }
         }
         Ok(None)
+    }
+
+    /// The entries about surfaces in other words, if POV-Ray draws these as durer draws the scene:
+    /// one that explains all, or else all of them.
+    fn known_reworded(&self, shown: &Scene, name: &str) -> Outcome<Option<Vec<&'static str>>> {
+        let Some((reworded, entries)) = known::all_reworded(shown) else { return Ok(None) };
+        if !self.agree(shown, &reworded, name)? {
+            return Ok(None);
+        }
+        let one = if entries.len() > 1 { self.known_alone(shown, name)? } else { None };
+        Ok(Some(one.map_or(entries, |entry| vec![entry])))
+    }
+
+    /// The entry about surfaces in other words that explains all.
+    fn known_alone(&self, shown: &Scene, name: &str) -> Outcome<Option<&'static str>> {
+        for words in &known::REWORDED {
+            if let Some(reworded) = (words.reworded)(shown)
+                && self.agree(shown, &reworded, name)?
+            {
+                return Ok(Some(words.entry));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether durer's picture of a scene and POV-Ray's of the same one in other words agree.
+    fn agree(&self, shown: &Scene, reworded: &Scene, name: &str) -> Outcome<bool> {
+        let verdict = self.judge_reworded(shown, reworded, name)?;
+        self.remove_all(name);
+        Ok(matches!(verdict, Verdict::Agrees | Verdict::Noise))
     }
 
     /// Removes the scene and the pictures of this name.
@@ -124,8 +179,8 @@ impl Bench<'_> {
     /// also differs from POV-Ray's when that renders nothing but the pixel.
     fn reproducible(&self, shown: &Scene, name: &str, (ours, theirs): &(Picture, Picture)) -> Outcome<f64> {
         let file = |ending: &str| self.folder.join(format!("{name}{ending}"));
-        let (scene, moved, picture) = (file(".pov"), file("-moved.pov"), file("-again.png"));
-        std::fs::write(&moved, shown.moved().text()).map_err(|e| format!("{}: {e}", moved.display()))?;
+        let (alone, moved, picture) = (file("-alone.pov"), file("-moved.pov"), file("-again.png"));
+        write(&moved, &shown.moved().text())?;
         let mut again = Vec::new();
         if self.povray.render(&moved, &picture, SHOT).is_ok() {
             again.push(Picture::read(&picture)?);
@@ -135,11 +190,13 @@ impl Bench<'_> {
         let sample: Vec<usize> =
             disputed.iter().copied().step_by(disputed.len().div_ceil(ALONE).max(1)).collect();
         let mut still = 0;
+        write(&alone, &shown.text())?;
         for &pixel in &sample {
             let place = (pixel as u32 % SHOT.width, pixel as u32 / SHOT.width);
-            self.povray.render_pixel(&scene, &picture, SHOT, place)?;
+            self.povray.render_pixel(&alone, &picture, SHOT, place)?;
             still += usize::from(differs_at(&Picture::read(&picture)?, ours, pixel));
         }
+        remove(&alone);
         remove(&picture);
         let share = still as f64 / sample.len().max(1) as f64;
         Ok(share * disputed.len() as f64 / theirs.pixels.len() as f64)
@@ -252,6 +309,10 @@ fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
         bench.remove_all(&name);
     }
     Ok(verdict)
+}
+
+fn write(path: &Path, text: &str) -> Outcome {
+    std::fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 /// Removes a picture; it may not exist.

@@ -86,7 +86,9 @@ fn cut(node: &Node) -> Vec<Node> {
             all.push(less);
         }
     }
-    for at in 0..node.said.len() {
+    // The step of a loop stays, or the loop would not end.
+    let said = if node.close == "#end" { 0 } else { node.said.len() };
+    for at in 0..said {
         let mut less = node.clone();
         less.said.remove(at);
         all.push(less);

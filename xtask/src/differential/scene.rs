@@ -19,7 +19,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    fn text(text: impl Into<String>) -> Self {
+    pub(super) fn text(text: impl Into<String>) -> Self {
         Self { open: text.into(), parts: Vec::new(), said: Vec::new(), close: "", least: 0 }
     }
 

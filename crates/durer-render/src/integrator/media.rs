@@ -25,7 +25,7 @@ impl Crossing {
         if grazing {
             return Self::Touch;
         }
-        media.iter().rposition(|&m| m == medium).map_or(Self::Enter, |at| Self::Leave { at })
+        media.iter().position(|&m| m == medium).map_or(Self::Enter, |at| Self::Leave { at })
     }
 
     /// Sets `list` to the media behind the surface of `medium`; `media` is the list before it.
@@ -89,7 +89,7 @@ mod tests {
             list
         };
         assert_eq!(behind(&[1, 2], 3, false), [1, 2, 3]);
-        assert_eq!(behind(&[1, 2, 1], 1, false), [1, 2]);
+        assert_eq!(behind(&[1, 2, 1], 1, false), [2, 1]);
         assert_eq!(behind(&[1, 2], 1, false), [2]);
         assert_eq!(behind(&[1, 2], 1, true), [1, 2]);
     }

@@ -18,7 +18,7 @@ struct Work {
     csg: CompoundBuilder,
     /// Its first primitive: those of its leaves are counted from there.
     first: PrimitiveId,
-    /// The medium of clear leaves without an interior: that of the whole body.
+    /// The medium of the whole body.
     medium: Option<u32>,
     /// Some light may pass a leaf.
     is_clear: bool,
@@ -222,11 +222,10 @@ impl Lowering {
             let (texture, frame) = self.texture_of(context);
             let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
             work.is_clear |= is_clear;
-            let medium = match context.medium.or(work.medium) {
-                Some(medium) => medium,
-                None if is_clear => *work.medium.insert(self.medium(&Arc::default(), false)),
-                None => 0,
-            };
+            let medium = self.medium_of(context.medium, is_clear || context.flags.hollow, context.flags);
+            if context.medium.is_none() {
+                work.medium = self.common_medium;
+            }
             let painted = (texture, frame);
             self.looks_of(object, place.affine(), painted, &context.inside, medium, context.flags)?
                 .within(work.first)

@@ -141,6 +141,7 @@ impl Scene {
             lowering.object = ObjectId(number);
             lowering.table.begin().map_err(|kind| kind.at(object.place))?;
             lowering.top = object;
+            lowering.common_medium = None;
             lowering.walk(object, &Context::default())?;
             lowering.table.end().map_err(|kind| kind.at(object.place))?;
         }
@@ -159,7 +160,7 @@ impl Lowered {
     /// without bounds, then the others, each in the order of the text. A ray that starts on the surface of a solid and goes into it starts inside.
     pub fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         for (medium, solid) in &self.around_camera {
-            if !media.contains(medium) && solid.holds_start(ray) {
+            if solid.holds_start(ray) {
                 media.push(*medium);
             }
         }
@@ -172,8 +173,8 @@ impl Lowered {
         for (medium, solid) in &self.around_camera {
             match solid.side(point) {
                 Side::On => return None,
-                Side::In if !media.contains(medium) => media.push(*medium),
-                Side::In | Side::Out => {}
+                Side::In => media.push(*medium),
+                Side::Out => {}
             }
         }
         Some(media)
@@ -184,7 +185,7 @@ impl Lowered {
     pub fn media_in(&self, region: &Aabb) -> Option<Vec<u32>> {
         let mut media = Vec::new();
         for (medium, solid) in &self.around_camera {
-            if solid.holds_all(region)? && !media.contains(medium) {
+            if solid.holds_all(region)? {
                 media.push(*medium);
             }
         }
@@ -254,6 +255,8 @@ struct Lowering {
     table: LookTable,
     media: Vec<Arc<Interior>>,
     hollow: Vec<bool>,
+    /// The medium of all clear parts of the current object of the scene that have no interior.
+    common_medium: Option<u32>,
     warnings: Vec<(Option<Place>, String)>,
     around_camera: Vec<(u32, Box<dyn Enclosure>)>,
     /// Meshes that several objects share.
@@ -279,6 +282,7 @@ impl Lowering {
             table: LookTable::default(),
             media: vec![Arc::default()],
             hollow: vec![false],
+            common_medium: None,
             warnings: Vec::new(),
             around_camera: Vec::new(),
             shared: shared::Meshes::of(&scene.objects),
@@ -358,6 +362,24 @@ impl Lowering {
         if around.frame.is_identity() { Arc::clone(&self.world) } else { Arc::clone(&around.frame) }
     }
 
+    /// The medium of a leaf; `given` is that of an interior. A fact of the scene language: all parts
+    /// of one object of the scene that have no interior share one, so that a ray in one of them
+    /// leaves it where it meets another one. An interior is hollow if its last leaf is.
+    fn medium_of(&mut self, given: Option<u32>, needs_one: bool, flags: Flags) -> u32 {
+        let medium = match given.or(self.common_medium) {
+            Some(medium) => medium,
+            None if needs_one => self.medium(&Arc::default(), flags.hollow),
+            None => return 0,
+        };
+        if given.is_none() {
+            self.common_medium = Some(medium);
+        }
+        if let Some(hollow) = self.hollow.get_mut(medium as usize) {
+            *hollow = flags.hollow;
+        }
+        medium
+    }
+
     fn medium(&mut self, interior: &Arc<Interior>, hollow: bool) -> u32 {
         self.media.push(Arc::clone(interior));
         self.hollow.push(hollow);
@@ -388,14 +410,8 @@ impl Lowering {
     fn leaf(&mut self, object: &Object, place: &Affine, context: Context<'_>) -> Result<(), LowerErrorKind> {
         let (texture, frame) = self.texture_of(&context);
         let is_clear = is_clear(object, &texture) || shows_through(&context.inside);
-        // Each clear or hollow object without an interior gets a medium of its own, so that leaving
-        // it means leaving this object only.
-        let medium = match context.medium {
-            Some(medium) => medium,
-            None if is_clear || context.flags.hollow => self.medium(&Arc::default(), context.flags.hollow),
-            None => 0,
-        };
         let flags = context.flags;
+        let medium = self.medium_of(context.medium, is_clear || flags.hollow, flags);
         let (mut outside, mut inside) = ((texture, frame), context.inside.clone());
         // A clipped surface keeps its normals (see `Target::add_rare`).
         if flags.inverse
