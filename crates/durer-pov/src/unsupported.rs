@@ -12,9 +12,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AaThreshold
             | Absorption
             | Alpha
-            | Altitude
             | AlwaysSample
-            | Aoi
             | ArcAngle
             | AreaIllumination
             | Autostop
@@ -69,7 +67,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint32le
             | Sint8
             | Size
-            | Slope
             | Spacing
             | Sum
             | Target

@@ -37,6 +37,7 @@ mod pattern;
 mod placement;
 mod point_warp;
 mod ramp;
+mod sampled;
 mod scene;
 mod shape;
 mod texture;
@@ -57,7 +58,10 @@ pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
-pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples};
+pub use crate::ramp::{
+    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples, Slope, SlopeTo,
+};
+pub use crate::sampled::{SampledFunction, TextureSample, TextureSource};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch, Prism,

@@ -4,6 +4,7 @@ use super::bundle::{Paths8, is_dense};
 use super::group::Piece;
 use crate::lanes::Rgb8;
 use crate::material::View;
+use crate::texture::Around8;
 use crate::vector::{dot, length};
 use durer_geometry::{Hits8, Rays8};
 use durer_math::lanes::{LANES, set_bits};
@@ -32,6 +33,12 @@ pub(super) struct Spot {
 }
 
 impl Spot {
+    /// What patterns may know of the surface there.
+    #[inline(always)]
+    pub(super) fn around(&self) -> Around8 {
+        Around8 { points: self.hits.p, normals: self.view.normal, rays: self.view.eye }
+    }
+
     const NONE: Self = Self {
         live: M8::NONE,
         hits: Hits8::NONE,

@@ -423,7 +423,7 @@ impl<'w> Whitted<'w> {
     ) {
         let mut shown = Vec::new();
         for spot in spots {
-            shown.push(blend.at_lanes(spot.inside, spot.live));
+            shown.push(blend.at_lanes(spot.inside, &spot.around(), spot.live));
         }
         let mut some = Spots::default();
         for entry in 0..blend.len() {
