@@ -13,8 +13,8 @@
 
 use std::sync::Arc;
 
-use durer_scene::{Ramp, TextureSource};
 use durer_scene::tape::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_scene::{Ramp, TextureSource};
 
 use crate::diagnostics::{self, Error, ErrorKind, Place};
 use crate::formulas;

@@ -21,6 +21,7 @@
 
 mod camera;
 mod cell_numbers;
+mod chart;
 mod colour;
 mod density_grid;
 mod finish;
@@ -44,6 +45,7 @@ mod texture;
 
 pub use crate::camera::{Camera, Projection};
 pub use crate::cell_numbers::CellNumbers;
+pub use crate::chart::{Chart, ChartKind, unfolded};
 pub use crate::colour::{Colour, Rgb};
 pub use crate::density_grid::{DensityGrid, GridBetween};
 pub use crate::finish::{Finish, Irid, Reflection};

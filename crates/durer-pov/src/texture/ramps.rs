@@ -106,21 +106,24 @@ impl Parser<'_> {
         } else {
             SlopeTo::Direction(Vec3::new(x, y, z))
         };
-        let range = self.range()?;
+        let range = self.slope_range()?;
         let mut altitude = None;
         if !is_point && self.take_word(Keyword::Altitude)? {
             let [x, y, z] = self.vector()?;
             if [x, y, z] == [0.0; 3] {
-                return Err(Error::invalid(place, "the altitude of a slope needs a direction that is not zero"));
+                return Err(Error::invalid(
+                    place,
+                    "the altitude of a slope needs a direction that is not zero",
+                ));
             }
-            altitude = Some((Vec3::new(x, y, z), self.range()?));
+            altitude = Some((Vec3::new(x, y, z), self.slope_range()?));
         }
         self.expect(Mark::BraceClose)?;
         Ok(Slope { to, range, altitude })
     }
 
     /// Reads two different numbers, if a comma or a number follows; 0 and 1 if not.
-    fn range(&mut self) -> Result<[f64; 2]> {
+    fn slope_range(&mut self) -> Result<[f64; 2]> {
         self.skip_comma()?;
         if !self.starts_number()? {
             return Ok([0.0, 1.0]);

@@ -3,7 +3,7 @@
 use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, TOGETHER, see};
 use super::group::{Piece, cut, sort};
 use super::media::Crossing;
-use super::shading_point::{Spot, Spots};
+use super::shading_point::{Spot, Spots, map_to_chart};
 use crate::lanes::Rgb8;
 use crate::progress::Progress;
 use crate::ray_end::RayEnd;
@@ -239,7 +239,10 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let ng = spot.hits.ng;
     // Patterns and bumps see the normal on the side from which the ray comes.
     let facing = F8::ZERO.lt(dot(ng, direction)).select3(ng * F8::splat(-1.0), ng);
-    let around = Around8 { points: spot.hits.p, normals: facing, rays: direction };
+    if let Some(chart) = look.chart {
+        map_to_chart(&world.charts[chart as usize], core::slice::from_mut(spot));
+    }
+    let around = Around8 { points: spot.hits.p, normals: facing, rays: direction, uv: spot.uv };
     let paint = &world.paints[look.paint as usize];
     let mut left = spot.paths.factor * paint.passed(spot.hits.p, &around, spot.live);
     let goes_on = spot.live & !left.is_black();

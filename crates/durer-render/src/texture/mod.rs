@@ -264,18 +264,23 @@ impl Blend<RenderPigment> {
 
 impl RenderPigment {
     pub(crate) fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
-        let joined = || pigment.placement.affine().then(around);
+        let on_chart = pigment.on_chart;
+        let joined = || match on_chart {
+            true => Ok(*pigment.placement.affine()),
+            false => pigment.placement.affine().then(around),
+        };
         Ok(match &pigment.body {
             PigmentBody::Solid(colour) => Self::Solid(*colour),
-            PigmentBody::Colours(pattern) => {
-                Self::Colours(Place::warped(&joined()?, pattern), Box::new(Blend::new(pattern, |c| Ok(*c))?))
-            }
+            PigmentBody::Colours(pattern) => Self::Colours(
+                Place::warped(&joined()?, pattern).on_chart(on_chart),
+                Box::new(Blend::new(pattern, |c| Ok(*c))?),
+            ),
             PigmentBody::Pigments(pattern) => Self::Shades(
-                Place::warped(&joined()?, pattern),
+                Place::warped(&joined()?, pattern).on_chart(on_chart),
                 Box::new(Blend::new(pattern, |p| Self::new(p, &Affine::IDENTITY))?),
             ),
             PigmentBody::Image(warps, map) => {
-                Self::Picture(Place::through(&joined()?, warps), Picture::new(map))
+                Self::Picture(Place::through(&joined()?, warps).on_chart(on_chart), Picture::new(map))
             }
         })
     }
@@ -284,15 +289,15 @@ impl RenderPigment {
     pub(crate) fn at(&self, p: Point3, around: Around) -> Colour {
         match self {
             Self::Solid(colour) => *colour,
-            Self::Picture(place, picture) => picture.colour(place.inside(p)),
-            Self::Colours(place, blend) => match blend.at(place.inside(p), around) {
+            Self::Picture(place, picture) => picture.colour(place.inside(p, around)),
+            Self::Colours(place, blend) => match blend.at(place.inside(p, around), around) {
                 Some(Shown::One(i)) => *blend.entry(i),
                 Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
                 Some(Shown::Each) => blend.mean(|colour| *colour),
                 None => Colour::default(),
             },
             Self::Shades(place, blend) => {
-                let p = place.inside(p);
+                let p = place.inside(p, around);
                 let shade = |i: usize| blend.entry(i).at(p, around);
                 match blend.at(p, around) {
                     Some(Shown::One(i)) => shade(i),
@@ -330,10 +335,10 @@ impl RenderPigment {
     pub(crate) fn colours(&self, p: Point3<F8>, around: &Around8, live: M8) -> Colour8 {
         match self {
             Self::Solid(colour) => Colour8::splat(*colour),
-            Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), around, live),
-            Self::Shades(place, blend) => blend.shades(place.inside_lanes(p), around, live),
+            Self::Colours(place, blend) => blend.colours(place.inside_lanes(p, around), around, live),
+            Self::Shades(place, blend) => blend.shades(place.inside_lanes(p, around), around, live),
             Self::Picture(place, picture) => {
-                let p = place.inside_lanes(p).to_vec();
+                let p = place.inside_lanes(p, around).to_vec();
                 Colour8::by_lane(live, |i| picture.colour(p.lane(i).to_point()))
             }
         }
@@ -369,11 +374,14 @@ impl RenderTexture {
                 Self::Layers(layers.iter().map(coat).collect::<Result<_, AffineError>>()?)
             }
             TextureBody::Pattern(pattern) => {
-                let own = joined()?;
+                let own = if texture.on_chart { *texture.placement.affine() } else { joined()? };
                 let world = own.then(outer)?;
                 let part =
                     |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
-                Self::Pattern(Place::warped(&own, pattern), Box::new(Blend::new(pattern, part)?))
+                Self::Pattern(
+                    Place::warped(&own, pattern).on_chart(texture.on_chart),
+                    Box::new(Blend::new(pattern, part)?),
+                )
             }
             TextureBody::Fields(fields) => {
                 let around = joined()?;
@@ -425,7 +433,7 @@ impl RenderTexture {
                 coats.iter().fold(Rgb::WHITE, |left, coat| left * coat.pigment.at(p, around).passed())
             }
             Self::Pattern(place, blend) => {
-                let p = place.inside(p);
+                let p = place.inside(p, around);
                 let passed = |i: usize| blend.entry(i).passed_at(p, around);
                 match blend.at(p, around) {
                     Some(Shown::One(i)) => passed(i),
@@ -540,7 +548,7 @@ mod tests {
         let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
-        let shown = blend.at(place.inside(p), Around::NOWHERE).unwrap();
+        let shown = blend.at(place.inside(p, Around::NOWHERE), Around::NOWHERE).unwrap();
         assert_eq!([0, 1, 2].map(|i| blend.part(shown, i)), [0.75, 0.25, 0.0]);
         assert_eq!((blend.part(Shown::One(1), 0), blend.part(Shown::One(1), 1)), (0.0, 1.0));
         assert_eq!(

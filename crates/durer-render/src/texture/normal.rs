@@ -61,9 +61,12 @@ const CORNERS: [[f64; 3]; 4] = {
 impl RenderNormal {
     /// Prepares a normal that is placed by `around`; that space is placed in the world by `outer`.
     pub(crate) fn new(normal: &Normal, around: &Affine, outer: &Affine) -> Result<Self, AffineError> {
-        let local = normal.placement.affine().then(around)?;
+        // On a chart the normal is not turned with the pattern.
+        let on_chart = normal.on_chart;
+        let own = *normal.placement.affine();
+        let local = if on_chart { own } else { own.then(around)? };
         let world = local.then(outer)?;
-        let turn = (world.as_translation().is_none()).then(|| {
+        let turn = (!on_chart && world.as_translation().is_none()).then(|| {
             let (linear, inverse) = (world.linear(), world.inverse_linear());
             Box::new((transposed(&linear), transposed(&inverse)))
         });
@@ -89,7 +92,7 @@ impl RenderNormal {
                 (Place::warped(&local, pattern), Body::Normals(Box::new(blend)))
             }
         };
-        Ok(Self { place, turn, keeps_slope: normal.keeps_slope, body })
+        Ok(Self { place: place.on_chart(on_chart), turn, keeps_slope: normal.keeps_slope, body })
     }
 
     /// The unit normals at some points, perturbed from those around.
@@ -104,7 +107,7 @@ impl RenderNormal {
 
     /// The unit normal at a point, perturbed from the unit normal `n`.
     fn at(&self, p: Point3, n: Vec3, around: Around) -> Vec3 {
-        let p = self.place.inside(p);
+        let p = self.place.inside(p, around);
         let mut own = match &self.turn {
             None => n,
             Some(turn) => times(&turn.0, n),

@@ -58,7 +58,9 @@ impl Source {
                 let Colour { rgb, filter, transmit } = pigment.at(p, Around::NOWHERE);
                 [rgb.r, rgb.g, rgb.b, filter, transmit]
             }
-            Self::Pattern(place, lookup) => one(lookup.value(place.inside(p), Around::NOWHERE)),
+            Self::Pattern(place, lookup) => {
+                one(lookup.value(place.inside(p, Around::NOWHERE), Around::NOWHERE))
+            }
             Self::Noise(grains) => one(grains.values(Vec3::<F8>::splat(p.to_vec())).0[0]),
         }
     }
