@@ -70,7 +70,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Spacing
             | Sum
             | Target
-            | Tiling
             | Translucency
             | Uint16be
             | Uint16le

@@ -6,7 +6,9 @@
 //!   sphere   u = turn(z, x) mod 1,   v = 1/2 + asin(y)/pi                   around its centre
 //!   torus    u = 1/2 - turn(z, x),   v = 1/2 + turn(y, sqrt(x^2 + z^2) - R)
 //!   box      its six sides unfolded to a cross of 4 by 3 rectangles that fills the unit square
-//!   mesh     interpolated between the corners
+//!   mesh     interpolated between the corners; 0 for faces without
+//!   sor      u as of a sphere,   v from 0 to 1 along y, with an equal share for each of its pieces
+//!   lathe    u as of a sphere,   v from 0 to 1 along its segments, each of which has an equal share
 //!   others   u = x, v = y of the point in the world
 //! ```
 //!
@@ -43,6 +45,11 @@ pub enum ChartKind {
     Torus(f64),
     /// A mesh.
     Mesh(Arc<Mesh>),
+    /// A surface of revolution around y, by the radii and heights of its points. The first and the
+    /// last one are not on it.
+    Revolution(Arc<[[f64; 2]]>),
+    /// A lathe of straight segments, by the radii and heights of its points.
+    Lathe(Arc<[[f64; 2]]>),
 }
 
 fn turn(y: f64, x: f64) -> f64 {
@@ -69,9 +76,19 @@ impl Chart {
                 unfolded(core::array::from_fn(|i| 2.0 * (at[i] - from[i]) / (to[i] - from[i]) - 1.0))
             }
             ChartKind::Mesh(mesh) => match primitive.checked_sub(self.first) {
-                Some(face) => of_face(mesh, face as usize, own()).unwrap_or([p.x, p.y]),
-                None => [p.x, p.y],
+                Some(face) => of_face(mesh, face as usize, own()).unwrap_or([0.0; 2]),
+                None => [0.0; 2],
             },
+            ChartKind::Revolution(points) => {
+                let Point3 { x, y, z } = own();
+                let u = turn(z, x);
+                [u - u.floor(), climbed(points, y)]
+            }
+            ChartKind::Lathe(points) => {
+                let Point3 { x, y, z } = own();
+                let u = turn(z, x);
+                [u - u.floor(), along(points, [(x * x + z * z).sqrt(), y])]
+            }
         }
     }
 }
@@ -100,6 +117,39 @@ pub fn unfolded([x, y, z]: [f64; 3]) -> [f64; 2] {
         (3.0, 1.0, -x / c, y / c)
     };
     [(column + (1.0 + u) / 2.0) / 4.0, (row + (1.0 + v) / 2.0) / 3.0]
+}
+
+/// The way along the pieces of a surface of revolution to a height, from 0 to 1.
+fn climbed(points: &[[f64; 2]], y: f64) -> f64 {
+    let pieces = points.len().saturating_sub(3);
+    for number in 0..pieces {
+        let (from, to) = (points[number + 1][1], points[number + 2][1]);
+        if y <= to || number + 1 == pieces {
+            return (number as f64 + (y - from) / (to - from)) / pieces as f64;
+        }
+    }
+    0.0
+}
+
+/// The way along segments to the one of their points that is nearest to `p`, from 0 to 1.
+fn along(points: &[[f64; 2]], p: [f64; 2]) -> f64 {
+    let (mut nearest, mut way) = (f64::INFINITY, 0.0);
+    for (number, ends) in points.windows(2).enumerate() {
+        let (from, to) = (ends[0], ends[1]);
+        let d = [to[0] - from[0], to[1] - from[1]];
+        let square = d[0] * d[0] + d[1] * d[1];
+        if square == 0.0 {
+            continue;
+        }
+        let t = ((p[0] - from[0]) * d[0] + (p[1] - from[1]) * d[1]) / square;
+        let t = t.clamp(0.0, 1.0);
+        let off = [from[0] + t * d[0] - p[0], from[1] + t * d[1] - p[1]];
+        let distance = off[0] * off[0] + off[1] * off[1];
+        if distance < nearest {
+            (nearest, way) = (distance, number as f64 + t);
+        }
+    }
+    way / (points.len().max(2) - 1) as f64
 }
 
 /// The coordinates of a point of a face, between those of its corners; `None` if it has none.
@@ -141,6 +191,10 @@ mod tests {
         close(at(ChartKind::Box(sides), [0.0, 0.0, -2.0]), [0.875, 0.5]);
         close(at(ChartKind::Torus(1.2), [4.0 / 3.0, 0.482, 0.0]), [0.5, 0.707]);
         close(at(ChartKind::Torus(1.2), [0.0, 0.3915, 8.0 / 9.0]), [0.25, 0.8569]);
+        let lathe = Arc::from([[1.0, -2.0], [1.8, 0.0], [1.0, 2.0]]);
+        close(at(ChartKind::Lathe(lathe), [0.0, y, -1.0889]), [0.75, 0.9444]);
+        let sor = Arc::from([[1.0, -3.0], [1.0, -2.0], [1.8, 1.0], [1.0, 2.0], [1.0, 3.0]]);
+        close(at(ChartKind::Revolution(sor), [0.0, 4.0 / 9.0, -1.0]), [0.75, 0.4074]);
         close(at(ChartKind::Flat, [1.0, 2.0, 3.0]), [1.0, 2.0]);
     }
 

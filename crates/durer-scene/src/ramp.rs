@@ -69,8 +69,15 @@ pub enum Ramp {
     Slope(Slope),
     /// The angle between the surface and the ray that meets it.
     Aoi,
+    /// Tiles of the plane `y = 0`, by the number of the tiling: one of [`Ramp::TILINGS`].
+    Tiling(u8),
     /// Numbers on a grid in the unit cube.
     Density(Arc<DensityGrid>, GridBetween),
+}
+
+impl Ramp {
+    /// The numbers of the tilings that there are.
+    pub const TILINGS: [u8; 9] = [1, 2, 3, 4, 5, 6, 7, 10, 18];
 }
 
 /// A pattern made of noise.

@@ -7,7 +7,7 @@ use durer_math::{Point3, Vec3};
 use durer_scene::{Crackle, Fractal, FractalMap, GridBetween, Ramp, Slope, SlopeTo};
 
 use super::PatternKind;
-use crate::diagnostics::{Error, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
@@ -52,6 +52,22 @@ impl Parser<'_> {
             Keyword::Slope => {
                 self.next()?;
                 Ramp::Slope(self.nested(Self::slope)?)
+            }
+            Keyword::Tiling => {
+                self.next()?;
+                let number = self.float()?;
+                if !(1.0..28.0).contains(&number) {
+                    return Err(Error::invalid(
+                        place,
+                        format!("tilings have numbers from 1 to 27, not {number}"),
+                    ));
+                }
+                let known = Ramp::TILINGS.into_iter().find(|&known| f64::from(known) == number.trunc());
+                let Some(known) = known else {
+                    let text = format!("not supported yet: tiling {number}; 1 to 7, 10 and 18 are there");
+                    return Err(Error::at(place, ErrorKind::Unsupported, text));
+                };
+                Ramp::Tiling(known)
             }
             Keyword::Aoi => {
                 self.next()?;

@@ -22,8 +22,8 @@ use durer_math::{Aabb, Affine, AffineError, Point3, Ray, Vec3};
 use durer_surfaces::Side;
 
 use crate::{
-    Camera, Chart, ChartKind, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture,
-    mask,
+    Camera, Chart, ChartKind, Face, Flags, Interior, LatheSpline, Mesh, Object, Place, Placement, Scene,
+    Shape, Texture, mask,
 };
 use camera_media::Enclosure;
 use looks::{LookTable, PrimitiveLooks};
@@ -436,8 +436,8 @@ impl Lowering {
 /// The name of a shape whose texture coordinates in POV-Ray are others than those here.
 fn has_other_coordinates(shape: &Shape) -> Option<&'static str> {
     Some(match shape {
-        Shape::Lathe(..) => "lathe",
-        Shape::Sor(_) => "surface of revolution",
+        Shape::Lathe(LatheSpline::Linear, _) => return None,
+        Shape::Lathe(..) => "lathe with a curved spline",
         Shape::Ovus { .. } => "ovus",
         Shape::Patch(_) | Shape::TriangularPatch(_) => "patch",
         Shape::Parametric(_) => "parametric",
@@ -469,6 +469,8 @@ impl Lowering {
             }
             Shape::Torus { major, .. } => ChartKind::Torus(*major),
             Shape::Mesh(mesh) => ChartKind::Mesh(Arc::clone(mesh)),
+            Shape::Sor(points) => ChartKind::Revolution(Arc::clone(points)),
+            Shape::Lathe(LatheSpline::Linear, points) => ChartKind::Lathe(Arc::clone(points)),
             _ => ChartKind::Flat,
         };
         if let Some(name) = has_other_coordinates(&object.shape) {

@@ -11,6 +11,7 @@ mod noise;
 mod push;
 mod ripples;
 mod slope;
+mod tiling;
 
 pub(super) use crackle::cell_number;
 pub(crate) use noise::Stir;
@@ -52,6 +53,7 @@ pub(crate) enum Field {
     Sampled(Box<Sampled>),
     Slope(Slope),
     Aoi,
+    Tiling(u8),
     Pigment(Box<RenderPigment>),
     Picture(Picture, ImageValue),
     Kind(Cutter),
@@ -92,6 +94,7 @@ impl Field {
             Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
             Ramp::Slope(slope) => Self::Slope(*slope),
             Ramp::Aoi => Self::Aoi,
+            Ramp::Tiling(number) => Self::Tiling(*number),
             Ramp::Sampled(function) => Self::Sampled(Box::new(Sampled::new(function)?)),
             Ramp::Pigment(pigment) => {
                 Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
@@ -126,6 +129,7 @@ impl Field {
             Self::Sampled(function) => function.value(&p.to_array()),
             Self::Slope(slope) => slope::value(slope, p, around),
             Self::Aoi => slope::incidence(around),
+            &Self::Tiling(number) => tiling::value(number, p),
             Self::Inside(volume) => volume.value(p),
             Self::Density(grid, between) => grid.value(p.to_array(), *between),
             Self::Marble(None) => p.x,
