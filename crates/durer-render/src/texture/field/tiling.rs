@@ -20,7 +20,8 @@ const Q2: f64 = 0.5 * Q;
 /// Half the diagonal of a unit square.
 const R: f64 = 0.707_106_781_186_547_6;
 
-/// A convex tile: its kind, and its corners against the clock, seen with x to the right and z up.
+/// A convex tile: its kind, and its corners against the clock, seen with x to the
+/// left and z up.
 type Tile = (u8, &'static [[f64; 2]]);
 
 struct Tiling {
@@ -133,14 +134,15 @@ fn depth([x, z]: [f64; 2], corners: &[[f64; 2]]) -> f64 {
 /// The value of a tiling at a point.
 pub(super) fn value(number: u8, p: Point3) -> f64 {
     let Tiling { steps: [a, b], kinds, bevel, tiles } = tiling(number);
+    let (x, z) = (-p.x, p.z);
     let determinant = a[0] * b[1] - a[1] * b[0];
-    let i = floor((p.x * b[1] - p.z * b[0]) / determinant);
-    let j = floor((a[0] * p.z - a[1] * p.x) / determinant);
+    let i = floor((x * b[1] - z * b[0]) / determinant);
+    let j = floor((a[0] * z - a[1] * x) / determinant);
     // The tile in which the point lies, or the nearest one if rounding puts it in none.
     let (mut kind, mut inside) = (0, f64::NEG_INFINITY);
     for (di, dj) in (-2_i8..=2).flat_map(|di| (-2_i8..=2).map(move |dj| (di, dj))) {
         let (i, j) = (i + f64::from(di), j + f64::from(dj));
-        let own = [p.x - i * a[0] - j * b[0], p.z - i * a[1] - j * b[1]];
+        let own = [x - i * a[0] - j * b[0], z - i * a[1] - j * b[1]];
         for &(of, corners) in tiles {
             let depth = depth(own, corners);
             if depth > inside {
