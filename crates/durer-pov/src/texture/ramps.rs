@@ -109,8 +109,10 @@ impl Parser<'_> {
     }
 
     /// Reads `{ DIRECTION [, LOW, HIGH] [altitude AXIS [, LOW, HIGH]] }` or `{ point_at POINT [, LOW, HIGH] }`.
+    ///
+    /// The braces may be left out, as in scenes of older versions.
     fn slope(&mut self) -> Result<Slope> {
-        self.expect(Mark::BraceOpen)?;
+        let has_braces = self.take_mark(Mark::BraceOpen)?;
         let is_point = self.take_word(Keyword::PointAt)?;
         self.peek()?;
         let place = self.here();
@@ -122,7 +124,7 @@ impl Parser<'_> {
         } else {
             SlopeTo::Direction(Vec3::new(x, y, z))
         };
-        let range = self.slope_range()?;
+        let range = self.slope_range(has_braces)?;
         let mut altitude = None;
         if !is_point && self.take_word(Keyword::Altitude)? {
             let [x, y, z] = self.vector()?;
@@ -132,16 +134,19 @@ impl Parser<'_> {
                     "the altitude of a slope needs a direction that is not zero",
                 ));
             }
-            altitude = Some((Vec3::new(x, y, z), self.slope_range()?));
+            altitude = Some((Vec3::new(x, y, z), self.slope_range(has_braces)?));
         }
-        self.expect(Mark::BraceClose)?;
+        if has_braces {
+            self.expect(Mark::BraceClose)?;
+        }
         Ok(Slope { to, range, altitude })
     }
 
     /// Reads two different numbers, if a comma or a number follows; 0 and 1 if not.
-    fn slope_range(&mut self) -> Result<[f64; 2]> {
-        self.skip_comma()?;
-        if !self.starts_number()? {
+    fn slope_range(&mut self, has_braces: bool) -> Result<[f64; 2]> {
+        // Without braces a number is the amount of a normal.
+        let has_comma = self.take_mark(Mark::Comma)?;
+        if !(has_comma || has_braces) || !self.starts_number()? {
             return Ok([0.0, 1.0]);
         }
         self.peek()?;
