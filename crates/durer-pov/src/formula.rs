@@ -8,17 +8,19 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_formula::{Formula, FormulaError, NodeId, Op};
 use durer_math::{Comparison, Function, Interval, Point3};
 use durer_scene::{Container, Isosurface};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
-use crate::formulas::{self, Lacking, Noisy};
+use crate::formulas::{self, Lacking};
 use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
 use crate::object::Shape;
 use crate::parser::{Item, Lexeme, Parser};
+use crate::pattern_function::lacking;
+use crate::sampled::{self, Called};
 use crate::value::{Terms, Value};
 use crate::vector_function::{self, VectorFunction};
 
@@ -34,25 +36,11 @@ enum Parameter {
     Name(Name),
 }
 
-/// A function that can be called.
-#[derive(Clone, Debug)]
-pub(crate) struct Called {
-    pub(crate) formula: Formula,
-    /// The noise function, if it is one whose arguments must be checked.
-    noisy: Option<Noisy>,
-}
-
-impl From<Formula> for Called {
-    fn from(formula: Formula) -> Self {
-        Self { formula, noisy: None }
-    }
-}
-
 impl Called {
     /// Checks whether it can be called with this number of arguments, and with their values as far
     /// as they are known.
-    fn check(&self, arguments: &[Option<f64>], place: Place) -> Result<()> {
-        check_count(arguments.len(), self.formula.inputs() as usize, place)?;
+    pub(crate) fn check(&self, arguments: &[Option<f64>], place: Place) -> Result<()> {
+        check_count(arguments.len(), self.inputs() as usize, place)?;
         self.noisy.map_or(Ok(()), |function| {
             formulas::check(function, arguments)
                 .map_err(|text| Error::at(place, ErrorKind::Unsupported, text))
@@ -62,7 +50,7 @@ impl Called {
 
 /// A function while it is converted from text to steps.
 struct Draft {
-    builder: Builder,
+    function: sampled::Draft,
     /// The words that are parameters, and the indices of their inputs.
     words: Vec<(Keyword, u32)>,
     /// The number of inputs, including those of loops.
@@ -100,11 +88,11 @@ fn function_of_one(keyword: Keyword) -> Option<Function> {
 
 impl Draft {
     fn push(&mut self, op: Op, place: Place) -> Result<NodeId> {
-        self.builder.push(op).map_err(too_long(place))
+        self.function.builder.push(op).map_err(too_long(place))
     }
 
     fn constant(&mut self, value: f64, place: Place) -> Result<NodeId> {
-        self.builder.constant(value).map_err(too_long(place))
+        self.function.builder.constant(value).map_err(too_long(place))
     }
 }
 
@@ -118,11 +106,18 @@ impl Parser<'_> {
         }
     }
 
+    /// Reads `function (a, b) { ... }`, including the word, as a formula with proven bounds.
+    pub(crate) fn exact_function_block(&mut self) -> Result<Formula> {
+        let place = self.here();
+        let called = self.float_function_block()?;
+        called.exact().map_err(too_long(place))?.ok_or_else(|| lacking(place))
+    }
+
     /// Reads the body of a function of `x`, `y` and `z`, behind its opening brace: one number.
-    pub(crate) fn function_behind_brace(&mut self) -> Result<Formula> {
+    pub(crate) fn function_behind_brace(&mut self) -> Result<Rc<Called>> {
         let place = self.here();
         match self.nested(|r| r.function_body(&None, place))? {
-            Value::Function(called) => Ok(called.formula.clone()),
+            Value::Function(called) => Ok(called),
             _ => Err(vector_function::wants_part(place)),
         }
     }
@@ -185,7 +180,7 @@ impl Parser<'_> {
 
     /// Reads what stands between the braces, and the closing brace.
     fn function_body(&mut self, parameters: &Option<Vec<Parameter>>, place: Place) -> Result<Value> {
-        let mut draft = Draft { builder: Builder::new(), words: Vec::new(), inputs: 3 };
+        let mut draft = Draft { function: sampled::Draft::default(), words: Vec::new(), inputs: 3 };
         self.scopes.enter();
         match parameters {
             None => {
@@ -221,16 +216,16 @@ impl Parser<'_> {
         let word = self.peek_word()?;
         match word {
             Some(Keyword::Internal) => return self.internal_function().map(function),
-            Some(Keyword::Pattern) => return Ok(function(self.pattern_function()?.into())),
+            Some(Keyword::Pattern) => return self.pattern_function().map(function),
             Some(Keyword::Texture) => {
                 let text = "not supported yet: a texture as a function: no bound of its values over a box is known, which an exact root needs";
                 return Err(Error::at(self.here(), ErrorKind::Unsupported, text));
             }
             _ => {}
         }
-        let inputs = draft.inputs;
+        let place = self.here();
         let root = self.logical_formula(&mut draft)?;
-        Ok(function(draft.builder.finish(root, inputs).into()))
+        Ok(function(draft.function.finish(root, draft.inputs).map_err(too_long(place))?))
     }
 
     /// `internal(n)`: one of the functions that functions.inc gives names to.
@@ -242,7 +237,11 @@ impl Parser<'_> {
         self.expect(Mark::ParenClose)?;
         self.language.noise_is_used |= number == formulas::PLAIN_NOISE;
         match formulas::internal(number, self.language.noise_generator()) {
-            Ok((formula, noisy)) => Ok(Called { formula, noisy }),
+            Ok((formula, noisy)) => {
+                let mut called = Called::from(formula);
+                called.noisy = noisy;
+                Ok(called)
+            }
             Err(Lacking::Unknown) => {
                 Err(Error::invalid(place, format!("there is no internal function {number}")))
             }
@@ -342,7 +341,9 @@ impl Parser<'_> {
                     "a function is made of floats: put the part of this vector that is meant into a float first",
                 )),
             },
-            Item::Value(Value::Parameter(number)) => draft.builder.input(*number).map_err(too_long(place)),
+            Item::Value(Value::Parameter(number)) => {
+                draft.function.builder.input(*number).map_err(too_long(place))
+            }
             Item::Value(Value::Function(called)) => {
                 let called = called.clone();
                 self.call_formula(draft, &called, place)
@@ -352,7 +353,9 @@ impl Parser<'_> {
                 self.call_part(draft, &function, place)
             }
             Item::Value(Value::Spline(spline)) => {
-                let function = VectorFunction::new(spline.formulas().map_err(too_long(place))?);
+                let function = VectorFunction::new(
+                    spline.formulas().map_err(too_long(place))?.into_iter().map(Called::from).collect(),
+                );
                 self.call_part(draft, &function, place)
             }
             Item::Mark(Mark::ParenOpen) => {
@@ -362,7 +365,7 @@ impl Parser<'_> {
             }
             Item::Word(word) => {
                 if let Some(&(_, number)) = draft.words.iter().find(|(known, _)| known == word) {
-                    return draft.builder.input(number).map_err(too_long(place));
+                    return draft.function.builder.input(number).map_err(too_long(place));
                 }
                 self.word_formula(draft, *word, &lexeme)
             }
@@ -395,10 +398,10 @@ impl Parser<'_> {
 
     fn call_formula(&mut self, draft: &mut Draft, called: &Called, place: Place) -> Result<NodeId> {
         let arguments = self.formula_arguments(draft)?;
-        let number = |&id| draft.builder.finish(id, draft.inputs).as_constant().map(Interval::mid);
+        let number = |&id| draft.function.constant_value(id).map(Interval::mid);
         let numbers: Vec<Option<f64>> = arguments.iter().map(number).collect();
         called.check(&numbers, place)?;
-        draft.builder.call(&called.formula, &arguments).map_err(too_long(place))
+        draft.function.call(called, &arguments).map_err(too_long(place))
     }
 
     /// Reads a component of the value of a vector function: `F(x, y, z).red`.
@@ -416,8 +419,8 @@ impl Parser<'_> {
             return Err(Error::invalid(lexeme.place, "this value has no such part"));
         };
         let mut sum = None;
-        for &(weight, formula) in &weights {
-            let mut value = draft.builder.call(formula, &arguments).map_err(too_long(place))?;
+        for &(weight, part) in &weights {
+            let mut value = draft.function.call(part, &arguments).map_err(too_long(place))?;
             if weight != 1.0 {
                 let weight = draft.constant(weight, place)?;
                 value = draft.push(Op::Mul(weight, value), place)?;
@@ -521,7 +524,8 @@ impl Parser<'_> {
         }
         // Reads the expression as a function of the outer inputs and of the loop's variable.
         let number = draft.inputs;
-        let mut inner = Draft { builder: Builder::new(), words: draft.words.clone(), inputs: number + 1 };
+        let mut inner =
+            Draft { function: sampled::Draft::default(), words: draft.words.clone(), inputs: number + 1 };
         self.scopes.enter();
         match variable {
             Parameter::Word(word) => inner.words.insert(0, (word, number)),
@@ -531,16 +535,16 @@ impl Parser<'_> {
         self.scopes.leave();
         let root = root?;
         self.expect(Mark::ParenClose)?;
-        let term = inner.builder.finish(root, number + 1);
+        let term = inner.function.finish(root, number + 1).map_err(too_long(place))?;
         let mut arguments = Vec::new();
         for i in 0..number {
-            arguments.push(draft.builder.input(i).map_err(too_long(place))?);
+            arguments.push(draft.function.builder.input(i).map_err(too_long(place))?);
         }
         let mut value = draft.constant(if word == Keyword::Sum { 0.0 } else { 1.0 }, place)?;
         let mut at = first;
         while at <= last {
             arguments.push(draft.constant(at, place)?);
-            let next = draft.builder.call(&term, &arguments).map_err(too_long(place))?;
+            let next = draft.function.call(&term, &arguments).map_err(too_long(place))?;
             arguments.pop();
             let step = if word == Keyword::Sum { Op::Add(value, next) } else { Op::Mul(value, next) };
             value = draft.push(step, place)?;
@@ -555,7 +559,7 @@ impl Parser<'_> {
         let place = self.here();
         let bound = self.logical_formula(draft)?;
         self.expect(Mark::Comma)?;
-        let constant = draft.builder.finish(bound, draft.inputs).as_constant();
+        let constant = draft.function.constant_value(bound);
         match constant {
             Some(value) if value.lo == value.hi => Ok(value.lo),
             _ => Err(Error::at(
@@ -571,8 +575,8 @@ impl Parser<'_> {
         let arguments = self.float_arguments()?;
         let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
         called.check(&numbers, place)?;
-        self.count_steps(called.formula.ops().len() as u64, place)?;
-        let value = called.formula.value(&arguments);
+        self.count_steps(called.steps() as u64, place)?;
+        let value = called.value(&arguments, self.texture_context());
         if value.is_nan() {
             return Err(Error::invalid(place, "this function is undefined here"));
         }
@@ -602,7 +606,7 @@ impl Parser<'_> {
             match self.peek_word()? {
                 Some(Keyword::Function) => {
                     let at = self.here();
-                    let formula = self.float_function_block()?.formula;
+                    let formula = self.exact_function_block()?;
                     if formula.inputs() != 3 {
                         let text = format!(
                             "the function of an isosurface has three parameters, this one has {}",

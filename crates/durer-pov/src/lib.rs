@@ -47,6 +47,7 @@ mod pattern_function;
 mod picture;
 mod pigment_function;
 mod read;
+mod sampled;
 mod scene_builder;
 mod scope;
 mod settings;

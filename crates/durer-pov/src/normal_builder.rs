@@ -46,13 +46,14 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
         })),
     };
     let placement = placement(&own.modifiers.place, at)?;
-    Ok(Some(scene::Normal { body, placement, keeps_slope: own.keeps_slope }))
+    let (keeps_slope, on_chart) = (own.keeps_slope, own.modifiers.on_chart);
+    Ok(Some(scene::Normal { body, placement, keeps_slope, on_chart }))
 }
 
 /// A normal that perturbs nothing.
 fn level() -> scene::Normal {
     let body = scene::NormalBody::Push { warps: Vec::new(), push: scene::Push::Bumps, amount: 0.0 };
-    scene::Normal { body, placement: scene::Placement::IDENTITY, keeps_slope: false }
+    scene::Normal { body, placement: scene::Placement::IDENTITY, keeps_slope: false, on_chart: false }
 }
 
 /// The vector that a normal adds, for the patterns that perturb normals in their own way.

@@ -1,13 +1,20 @@
-//! `function { pattern { ... } }`: patterns that have a formula, as functions of `x`, `y`, `z`.
+//! `function { pattern { ... } }`: patterns as functions of `x`, `y`, `z`.
+//!
+//! Patterns that have a formula without noise become that formula:
 //!
 //! ```text
 //!   wave(begun anew(frequency * value(M^-1 p) + phase)),  M: the transforms behind the pattern's word
 //! ```
 //!
 //! The values are those of POV-Ray, to rounding. Patterns with a list of entries have the values 0,
-//! 1, ..., and a frequency only if one is given.
+//! 1, ..., and a frequency only if one is given. All others are evaluated as in pigments. The function
+//! of a surface needs bounds: there noise patterns are formulas of durer's own noise, and what has no
+//! formula is refused.
+
+use std::sync::Arc;
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_scene::{Ramp, TextureSource};
 
 use crate::diagnostics::{self, Error, ErrorKind, Place};
 use crate::formulas;
@@ -15,7 +22,10 @@ use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::noise_pattern;
 use crate::parser::Parser;
+use crate::sampled::Called;
+use crate::scene_builder;
 use crate::texture::{Pattern, PatternKind, Wave};
+use crate::texture_builder;
 use crate::transform::{self, Matrix};
 
 /// The value of a gradient for `P0 x + P1 y + P2 z`; the direction has length 1.
@@ -90,17 +100,25 @@ fn bent(wave: Wave) -> (&'static str, Option<f64>) {
 
 impl Parser<'_> {
     /// Reads `pattern { ... }`, including the word.
-    pub(crate) fn pattern_function(&mut self) -> diagnostics::Result<Formula> {
+    pub(crate) fn pattern_function(&mut self) -> diagnostics::Result<Called> {
         let place = self.here();
         self.next()?;
         self.expect(Mark::BraceOpen)?;
-        let formula = self.nested(|r| r.pattern_function_items(place))?;
+        let function = self.nested(|r| r.pattern_function_items(place))?;
         self.expect(Mark::BraceClose)?;
-        Ok(formula)
+        Ok(function)
     }
 
-    fn pattern_function_items(&mut self, place: Place) -> diagnostics::Result<Formula> {
-        let Some(kind) = self.pattern_kind(None)? else { return Err(lacking(place)) };
+    fn pattern_function_items(&mut self, place: Place) -> diagnostics::Result<Called> {
+        let Some(kind) = self.pattern_kind(None)? else {
+            let lexeme = self.next()?;
+            return Err(self.unexpected(&lexeme, "a pattern"));
+        };
+        if let PatternKind::Ramp(ramp, at) = &kind
+            && matches!(**ramp, Ramp::Slope(_) | Ramp::Aoi)
+        {
+            return Err(Error::invalid(*at, "this pattern belongs to a surface and cannot be a function"));
+        }
         let mut pattern = self.plain_pattern(kind);
         while !self.at_mark(Mark::BraceClose)? {
             if let Some(by) = self.transform_item()? {
@@ -120,30 +138,35 @@ impl Parser<'_> {
         if pattern.modifiers.place.inverse().is_none() {
             return Err(Error::invalid(place, CANNOT_BE_UNDONE));
         }
-        if noise_pattern::lacks_generator(&pattern) {
-            return Err(third_generator(place));
+        let exact = if noise_pattern::lacks_generator(&pattern) { None } else { formula() };
+        self.language.noise_is_used |= exact.as_ref().is_some_and(has_noise);
+        match exact {
+            Some(formula) if !has_noise(&formula) => Ok(formula.into()),
+            exact => {
+                let source = TextureSource::Pattern {
+                    placement: scene_builder::placement(&pattern.modifiers.place, place)?,
+                    warps: texture_builder::warps_of(&pattern, place)?,
+                    value: texture_builder::value_of(&pattern, place)?,
+                };
+                let made = Called::texture(&Arc::new(source), 0, exact);
+                made.map_err(|error| Error::at(place, ErrorKind::Limit, error.to_string()))
+            }
         }
-        let formula = formula().ok_or_else(|| lacking(place))?;
-        self.language.noise_is_used |= has_noise(&formula);
-        Ok(formula)
     }
 }
 
 /// The message for a pattern whose placement is not invertible.
 pub(crate) const CANNOT_BE_UNDONE: &str = "the pattern's transforms cannot be undone";
 
+/// The message for a texture in the function of a surface, for which no formula is known.
 pub(crate) fn lacking(place: Place) -> Box<Error> {
-    let text = "not supported yet: this pattern as a function: no bound of its values over a box is known, which an exact root needs";
+    let text = "not supported yet: this pattern or pigment in the function of a surface: no bound of its values over a box is known, which an exact root needs";
     Error::at(place, ErrorKind::Unsupported, text)
 }
 
 /// Whether the formula depends on noise.
 pub(crate) fn has_noise(formula: &Formula) -> bool {
     formula.ops().iter().any(|op| matches!(op, Op::Noise(_)))
-}
-
-pub(crate) fn third_generator(place: Place) -> Box<Error> {
-    Error::at(place, ErrorKind::Unsupported, "not supported yet: noise generator 3; 1 and 2 are there")
 }
 
 /// The value of a pattern at a point in its own space; `None` if no formula is known.

@@ -8,16 +8,21 @@
 //! ```
 //!
 //! If a map is continuous, so are the functions; where two entries have the same position, they
-//! jump.
+//! jump. Pigments without such formulas, and those of noise, are evaluated as on surfaces.
 
-use durer_formula::{Builder, Formula, NodeId, Op};
+use std::sync::Arc;
 
-use crate::diagnostics::{Error, Result};
+use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_scene::TextureSource;
+
+use crate::diagnostics::{Error, ErrorKind, Result};
 use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
 use crate::parser::Parser;
-use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, lacking, moved, third_generator, written};
+use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, moved, written};
+use crate::sampled::Called;
 use crate::texture::{Body, Map, Paint, Pattern, PatternKind, Pigment};
+use crate::texture_builder;
 
 /// The components of a colour, as steps.
 type Colour = [NodeId; 5];
@@ -28,30 +33,35 @@ enum Lack {
     Formula,
     /// Its placement is not invertible.
     Place,
-    /// Its noise generator is not supported.
-    Generator,
 }
 
 impl Parser<'_> {
     /// Reads `pigment { ... }`, including the word, as functions of a point: red, green, blue,
     /// filter, transmit.
-    pub(crate) fn pigment_function(&mut self) -> Result<Vec<Formula>> {
+    pub(crate) fn pigment_function(&mut self) -> Result<Vec<Called>> {
         let place = self.here();
         self.next()?;
         // It does not start from the default pigment (a fact of the language); the pigments inside
         // it do.
         let pigment = self.nested(|r| r.pigment_block(&Pigment::default()))?;
         let mut b = Builder::new();
-        match everywhere(&mut b, &pigment) {
-            Ok(colour) => {
-                let parts = colour.map(|part| b.finish(part, 3)).to_vec();
-                self.language.noise_is_used |= parts.iter().any(has_noise);
-                Ok(parts)
-            }
-            Err(Lack::Formula) => Err(lacking(place)),
-            Err(Lack::Generator) => Err(third_generator(place)),
-            Err(Lack::Place) => Err(Error::invalid(place, CANNOT_BE_UNDONE)),
-        }
+        let exact: Option<[Formula; 5]> = match everywhere(&mut b, &pigment) {
+            Ok(colour) => Some(colour.map(|part| b.finish(part, 3))),
+            Err(Lack::Formula) => None,
+            Err(Lack::Place) => return Err(Error::invalid(place, CANNOT_BE_UNDONE)),
+        };
+        let is_noisy = exact.as_ref().is_some_and(|parts| parts.iter().any(has_noise));
+        self.language.noise_is_used |= is_noisy;
+        let exact = match exact {
+            Some(parts) if !is_noisy => return Ok(parts.map(Called::from).to_vec()),
+            Some(parts) => parts.map(Some),
+            None => Default::default(),
+        };
+        let source = Arc::new(TextureSource::Pigment(texture_builder::pigment(&pigment, place)?));
+        let parts = exact.into_iter().zip(0_u8..).map(|(exact, part)| Called::texture(&source, part, exact));
+        parts
+            .collect::<std::result::Result<_, _>>()
+            .map_err(|error: FormulaError| Error::at(place, ErrorKind::Limit, error.to_string()))
     }
 }
 
@@ -107,7 +117,7 @@ fn place_and_value(
     pattern: &Pattern,
 ) -> std::result::Result<(NodeId, [NodeId; 3]), Lack> {
     if lacks_generator(pattern) {
-        return Err(Lack::Generator);
+        return Err(Lack::Formula);
     }
     let back = pattern.modifiers.place.inverse().ok_or(Lack::Place)?;
     let own = moved(b, p, &back).map_err(|_| Lack::Formula)?;

@@ -415,12 +415,16 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
                 vertices: mesh.vertices.iter().copied().map(point).collect(),
                 normals: mesh.normals.iter().copied().map(unit).collect(),
                 faces: faces.collect(),
-                uv: Vec::new(),
-                uv_faces: Vec::new(),
+                uv: mesh.uv.clone(),
+                uv_faces: mesh.uv_faces.clone(),
                 textures: textures.collect::<Result<_>>()?,
                 inside_vector: mesh.inside_vector.map(vector),
             };
-            limits::charge_for_good((made.vertices.len() + made.normals.len()) * 24 + made.faces.len() * 36);
+            limits::charge_for_good(
+                (made.vertices.len() + made.normals.len()) * 24
+                    + made.faces.len() * 36
+                    + (made.uv.len() + made.uv_faces.len()) * 16,
+            );
             scene::Shape::Mesh(Arc::new(made))
         }
         Shape::Quadric(coefficients) => scene::Shape::Quadric(coefficients.clone()),

@@ -19,6 +19,7 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
             Ok(scene::Texture {
                 body: scene::TextureBody::Layers(made),
                 placement: scene::Placement::IDENTITY,
+                on_chart: false,
             })
         }
         Texture::Patterned { pattern, map } => {
@@ -32,6 +33,7 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
             Ok(scene::Texture {
                 body: scene::TextureBody::Pattern(Box::new(made)),
                 placement: placement(&pattern.modifiers.place, at)?,
+                on_chart: pattern.modifiers.on_chart,
             })
         }
     }
@@ -56,7 +58,8 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
             // Only its warps are used.
             let pattern = Pattern { kind: PatternKind::Average, modifiers: own.modifiers.clone() };
             let body = scene::PigmentBody::Image(warps_of(&pattern, at)?, Arc::clone(map));
-            return Ok(scene::Pigment { body, placement: placement(&own.modifiers.place, at)? });
+            let (placement, on_chart) = (placement(&own.modifiers.place, at)?, own.modifiers.on_chart);
+            return Ok(scene::Pigment { body, placement, on_chart });
         }
     };
     let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
@@ -80,6 +83,7 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
         )?),
     };
     made.placement = placement(&pattern.modifiers.place, at)?;
+    made.on_chart = pattern.modifiers.on_chart;
     Ok(made)
 }
 

@@ -12,9 +12,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | AaThreshold
             | Absorption
             | Alpha
-            | Altitude
             | AlwaysSample
-            | Aoi
             | ArcAngle
             | AreaIllumination
             | Autostop
@@ -69,11 +67,9 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Sint32le
             | Sint8
             | Size
-            | Slope
             | Spacing
             | Sum
             | Target
-            | Tiling
             | Translucency
             | Uint16be
             | Uint16le

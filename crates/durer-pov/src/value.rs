@@ -183,7 +183,7 @@ pub(crate) enum Value {
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
     Macro(Rc<Macro>),
-    Function(Rc<crate::formula::Called>),
+    Function(Rc<crate::sampled::Called>),
     VectorFunction(Rc<crate::vector_function::VectorFunction>),
     Spline(Rc<crate::spline::Spline>),
     /// A parameter of the function that is being read.
@@ -240,8 +240,8 @@ impl Value {
             Self::Material(material) => {
                 material.texture.as_ref().map_or(0, crate::texture::Texture::size) * layer + layer
             }
-            Self::Function(called) => called.formula.ops().len() * 24,
-            Self::VectorFunction(function) => function.steps() * 24,
+            Self::Function(called) => called.held(),
+            Self::VectorFunction(function) => function.held(),
             Self::SkySphere(sky) => sky.pigments.len() * layer,
             Self::Fog(_) | Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,

@@ -11,6 +11,7 @@ use crate::formula::check_count;
 use crate::keywords::Keyword;
 use crate::parser::Parser;
 use crate::pattern_function::moved;
+use crate::sampled::Called;
 use crate::value::Terms;
 
 /// The weights of red, green and blue in grey.
@@ -19,12 +20,12 @@ const GRAY: [f64; 3] = [0.297, 0.589, 0.114];
 /// A function whose value is a vector of two to five components.
 #[derive(Clone, Debug)]
 pub(crate) struct VectorFunction {
-    /// One formula for each component, all with the same inputs.
-    parts: Vec<Formula>,
+    /// One function for each component, all with the same inputs.
+    parts: Vec<Called>,
 }
 
 impl VectorFunction {
-    pub(crate) fn new(parts: Vec<Formula>) -> Self {
+    pub(crate) fn new(parts: Vec<Called>) -> Self {
         Self { parts }
     }
 
@@ -35,11 +36,16 @@ impl VectorFunction {
 
     /// The number of steps of all components.
     pub(crate) fn steps(&self) -> usize {
-        self.parts.iter().map(|part| part.ops().len()).sum()
+        self.parts.iter().map(Called::steps).sum()
     }
 
-    /// The component for a word after a dot, as a sum of formulas with their weights.
-    pub(crate) fn part(&self, word: Keyword) -> Option<Vec<(f64, &Formula)>> {
+    /// The bytes that it holds.
+    pub(crate) fn held(&self) -> usize {
+        self.parts.iter().map(Called::held).sum()
+    }
+
+    /// The component for a word after a dot, as a sum of functions with their weights.
+    pub(crate) fn part(&self, word: Keyword) -> Option<Vec<(f64, &Called)>> {
         if word == Keyword::Gray {
             let colours = self.parts.get(..3)?;
             return Some(GRAY.into_iter().zip(colours).collect());
@@ -80,7 +86,7 @@ impl Parser<'_> {
             return Err(Error::invalid(place, text));
         }
         let parts = match word {
-            Keyword::Spline => self.spline_function()?,
+            Keyword::Spline => self.spline_function()?.into_iter().map(Called::from).collect(),
             Keyword::Pigment => self.pigment_function()?,
             _ => {
                 self.next()?;
@@ -90,7 +96,9 @@ impl Parser<'_> {
                     let p = [b.input(0)?, b.input(1)?, b.input(2)?];
                     Ok(moved(&mut b, p, &map)?.map(|part| b.finish(part, 3)).to_vec())
                 };
-                formulas().map_err(|error| Error::at(place, ErrorKind::Limit, error.to_string()))?
+                let parts =
+                    formulas().map_err(|error| Error::at(place, ErrorKind::Limit, error.to_string()))?;
+                parts.into_iter().map(Called::from).collect()
             }
         };
         Ok(Some(VectorFunction::new(parts)))
@@ -101,7 +109,10 @@ impl Parser<'_> {
         let arguments = self.float_arguments()?;
         check_count(arguments.len(), function.inputs(), place)?;
         self.count_steps(function.steps() as u64, place)?;
-        let values: Vec<f64> = function.parts.iter().map(|part| part.value(&arguments)).collect();
+        let values: Vec<f64> = {
+            let context = self.texture_context();
+            function.parts.iter().map(|part| part.value(&arguments, context)).collect()
+        };
         if values.iter().any(|value| value.is_nan()) {
             return Err(Error::invalid(place, "this function is undefined here"));
         }

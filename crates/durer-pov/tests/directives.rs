@@ -199,14 +199,14 @@ fn warnings_that_repeat_themselves_are_counted() {
 #[test]
 fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
     let defined = "#declare S = spline { linear_spline 0,x 1,y }
-        #declare M = texture { pigment { tiling 1 color_map { [0 rgb 0][1 rgb 1] } } normal { aoi } } texture { pigment { marble } }
-        #declare P = pigment { tiling 2 turbulence 0.5 } #declare N = normal { slope y }
+        #declare M = texture { pigment { pavement color_map { [0 rgb 0][1 rgb 1] } } normal { pavement } } texture { pigment { marble } }
+        #declare P = pigment { pavement turbulence 0.5 } #declare N = normal { pavement }
         #macro W() pavement #end #declare After = 7; #debug str(After,0,0)";
     assert_eq!(debug(defined), "7");
     for (use_it, word) in [
-        ("sphere { 0, 1 texture { M } }", "tiling"),
-        ("sphere { 0, 1 pigment { P } }", "tiling"),
-        ("sphere { 0, 1 normal { N } }", "slope"),
+        ("sphere { 0, 1 texture { M } }", "pavement"),
+        ("sphere { 0, 1 pigment { P } }", "pavement"),
+        ("sphere { 0, 1 normal { N } }", "pavement"),
         ("sphere { 0, W() }", "pavement"),
     ] {
         let error = read(&format!("{defined}\n{use_it}")).unwrap_err();

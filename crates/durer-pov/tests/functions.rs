@@ -500,6 +500,31 @@ fn pigments_as_functions_have_povrays_colours() {
 }
 
 #[test]
+fn textures_as_functions_have_povrays_values() {
+    let near = |declared: &str, expression: &str, expected: f64| {
+        let said: f64 = value(declared, expression).parse().unwrap();
+        assert!((said - expected).abs() < 1e-6, "{declared} {expression}: {said} instead of {expected}");
+    };
+    let magnet = "#declare F = function { pattern { magnet 1 mandel 50 interior 2, 1 frequency 0 } };";
+    near(magnet, "F(1, 0.3, 0)", 0.936422507576);
+    let tiling = "#declare F = function { pattern { tiling 1 } };";
+    near(tiling, "F(0.5, 0, 0.25)", 0.5);
+    let cubic = "#declare F = function { pattern { gradient x warp { cubic } } };";
+    near(cubic, "F(0.5, 0.2, 0.1)", 0.6);
+    // A function of functions of textures, in a loop.
+    let nested =
+        format!("{tiling} #declare G = function(a) {{ sum(i, 1, 2, F(i/2 - 1/4, 0, a*F(0.5, 0, 0.5))) }};");
+    near(&nested, "G(0.5)", 2.0);
+    near(
+        &format!(
+            "{tiling} #declare G = function {{ pigment {{ function {{ F(x, y, z) }} color_map {{ [0 rgb <1, 2, 3>] [1 rgb 0] }} }} }};"
+        ),
+        "G(0.5, 0, 0.25).green",
+        1.0,
+    );
+}
+
+#[test]
 fn what_is_wrong_with_a_function_is_said_once_and_where() {
     let says = |text: &str, column: usize, expected: &str| {
         let (line, at, said) = fault(text);
@@ -516,14 +541,25 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare V = <1, 2, 3>; #declare F = function(a) { a*V };", 54, "made of floats");
     says("#declare F = function(a) { sqrt(a) }; #declare A = F(-1);", 52, "undefined here");
     says("#declare F = function { internal(99) };", 25, "no internal function 99");
-    says("#declare F = function { pattern { crackle } }; sphere { 0, F(1, 2, 3) }", 60, "no bound");
+    says("isosurface { function { pattern { crackle } } }", 14, "no bound");
     says(
-        "#declare F = function { pattern { bozo noise_generator 3 } }; sphere { 0, F(1, 2, 3) }",
-        75,
-        "noise generator 3",
+        "#declare F = function { pattern { cells } }; isosurface { function { x - F(x, y, z) } }",
+        59,
+        "no bound",
     );
+    says("isosurface { function { pattern { bozo noise_generator 3 } } }", 14, "no bound");
+    says(
+        "#declare F = function { pattern { slope { y } } }; sphere { 0, F(1, 2, 3) }",
+        35,
+        "belongs to a surface",
+    );
+    says("#declare F = function { pattern { average } };", 25, "no value");
     says("#declare F = function { pattern { marble colour_map } };", 42, "the pattern's value");
-    says("sphere { 0, 1 pigment { tiling 1 } }", 25, "tiling");
+    says("sphere { 0, 1 pigment { pavement } }", 25, "pavement");
+    says("sphere { 0, 1 pigment { tiling 8 } }", 25, "1 to 7, 10 and 18");
+    says("sphere { 0, 1 pigment { tiling 28 } }", 25, "from 1 to 27");
+    says("sphere { 0, 1 pigment { slope { 0 } } }", 33, "not zero");
+    says("sphere { 0, 1 pigment { slope { y, 1, 1 } } }", 36, "is empty");
     let ridged = "#declare F = function { internal(59) }";
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "20 at most");
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 4, 1, 1, 3) }}"), 52, "noise generator 3");
@@ -550,9 +586,9 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
     says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
     says(
-        "#declare F = function { pigment { crackle } }; sphere { 0, F(1, 2, 3).red }",
-        60,
-        "this pattern as a function",
+        "#declare F = function { pigment { crackle } }; isosurface { function { F(x, y, z).red } }",
+        61,
+        "no bound",
     );
     says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");
     says("#declare F = function { pigment { spherical scale <1, 1, 1e-320> } };", 45, "singular");

@@ -34,6 +34,7 @@
 pub mod camera;
 pub mod film;
 mod fog;
+mod function_values;
 mod integrator;
 mod interactive;
 mod lanes;
@@ -53,6 +54,7 @@ mod texture;
 mod vector;
 mod world;
 
+pub use crate::function_values::FunctionValues;
 pub use crate::integrator::{RayKind, RayTree, ShadowRay, TracedRay};
 pub use crate::interactive::PixelTracer;
 pub use crate::pigment_colours::PigmentColours;

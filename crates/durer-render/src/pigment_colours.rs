@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_math::{Affine, AffineError, Point3};
 use durer_scene::{Colour, LearnedNoise, Pigment, Settings};
 
-use crate::texture::{Grains, RenderPigment, building_with};
+use crate::texture::{Around, Grains, RenderPigment, building_with};
 
 /// A pigment that is asked for its colour at points.
 ///
@@ -36,6 +36,6 @@ impl PigmentColours {
 
     /// The colour at a point.
     pub fn at(&self, p: Point3) -> Colour {
-        self.0.at(p)
+        self.0.at(p, Around::NOWHERE)
     }
 }

@@ -1,7 +1,7 @@
 //! The look of the sky: rays that hit nothing see it in front of the background.
 
 use crate::lanes::{Colour8, Rgb8};
-use crate::texture::RenderPigment;
+use crate::texture::{Around8, RenderPigment};
 use crate::vector::length;
 use durer_math::{Affine, AffineError, F8, M8, Vec3};
 use durer_scene::{Rgb, Scene};
@@ -45,7 +45,7 @@ impl Sky {
         let emission = Rgb8::splat(self.emission);
         let mut seen = Rgb8::splat(self.background);
         for layer in &self.layers {
-            let colour: Colour8 = layer.colours(p, live);
+            let colour: Colour8 = layer.colours(p, &Around8::NOWHERE, live);
             let clear = colour.filter + colour.transmit;
             let own = colour.rgb * emission * (F8::ONE - clear);
             seen = own + if self.filters_grey { seen * clear } else { seen * colour.passed() };

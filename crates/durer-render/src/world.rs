@@ -1,10 +1,11 @@
 //! The world: a scene prepared for the integrator (geometry, textures, lights, camera).
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use durer_geometry::Geometry;
 use durer_math::{Aabb, Affine, AffineError, Ray};
-use durer_scene::{LowerError, Lowered, Place, Placement, Scene, Texture};
+use durer_scene::{Chart, LowerError, Lowered, Place, Placement, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
@@ -20,6 +21,7 @@ pub struct World {
     pub(crate) lowered: Lowered,
     pub(crate) looks: Vec<Look>,
     pub(crate) paints: Vec<RenderTexture>,
+    pub(crate) charts: Vec<Arc<Chart>>,
     pub(crate) media: Vec<Medium>,
     pub(crate) lamps: Vec<RenderLight>,
     camera: Option<Camera>,
@@ -50,6 +52,8 @@ pub(crate) struct Look {
     pub(crate) double_illuminate: bool,
     /// The index of the look that rays along the normal see.
     pub(crate) inside: u32,
+    /// The index of its texture coordinates, if the texture is shown by them.
+    pub(crate) chart: Option<u32>,
 }
 
 /// Why a scene cannot be rendered.
@@ -79,7 +83,7 @@ impl World {
     fn built(scene: &Scene) -> Result<Self, WorldError> {
         let lowered = scene.lower_for_pictures()?;
         let settings = &scene.settings;
-        let mut paints = Vec::new();
+        let (mut paints, mut charts) = (Vec::new(), Vec::new());
         let mut looks = Vec::with_capacity(lowered.looks.len());
         // Looks that differ only in their interior share a texture.
         let mut known: HashMap<(*const Texture, *const Placement), u32> = HashMap::new();
@@ -101,7 +105,11 @@ impl World {
             };
             let inside = look.inside.map_or(own, |inside| inside.0);
             let double_illuminate = look.double_illuminate;
-            looks.push(Look { paint, medium: look.medium, double_illuminate, inside });
+            let chart = look.chart.as_ref().map(|chart| {
+                charts.push(chart.clone());
+                (charts.len() - 1) as u32
+            });
+            looks.push(Look { paint, medium: look.medium, double_illuminate, inside, chart });
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
         let standing = standing(&lowered, scene.camera.as_ref(), camera.as_ref());
@@ -112,6 +120,7 @@ impl World {
             media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
             lamps: lights.map(|light| light.among(&lowered.geometry)).collect(),
             looks,
+            charts,
             paints,
             camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,

@@ -21,6 +21,7 @@
 
 mod camera;
 mod cell_numbers;
+mod chart;
 mod colour;
 mod density_grid;
 mod finish;
@@ -37,12 +38,14 @@ mod pattern;
 mod placement;
 mod point_warp;
 mod ramp;
+mod sampled;
 mod scene;
 mod shape;
 mod texture;
 
 pub use crate::camera::{Camera, Projection};
 pub use crate::cell_numbers::CellNumbers;
+pub use crate::chart::{Chart, ChartKind, unfolded};
 pub use crate::colour::{Colour, Rgb};
 pub use crate::density_grid::{DensityGrid, GridBetween};
 pub use crate::finish::{Finish, Irid, Reflection};
@@ -57,7 +60,10 @@ pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
-pub use crate::ramp::{Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples};
+pub use crate::ramp::{
+    Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples, Slope, SlopeTo,
+};
+pub use crate::sampled::{SampledFunction, TextureSample, TextureSource};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
     Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch, Prism,

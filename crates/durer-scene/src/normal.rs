@@ -13,6 +13,20 @@ pub struct Normal {
     pub placement: Placement,
     /// Whether bumps keep their slope, and not their depth, when they are scaled.
     pub keeps_slope: bool,
+    /// Whether its pattern is seen at the surface's texture coordinates `(u, v, 0)` in place of the
+    /// point. Then only its own placement counts.
+    pub on_chart: bool,
+}
+
+impl Normal {
+    /// Whether anything in it is seen at texture coordinates.
+    pub(crate) fn needs_chart(&self) -> bool {
+        self.on_chart
+            || match &self.body {
+                NormalBody::Normals(pattern) => pattern.entries().any(Self::needs_chart),
+                _ => false,
+            }
+    }
 }
 
 /// How a normal is perturbed.

@@ -37,6 +37,9 @@ pub enum PointWarp {
     BlackHole(BlackHole),
     /// The plane of a flat pattern is laid around a cylinder, a sphere or a torus about the y axis.
     Wrapped(Wrap),
+    /// The sides of cubes around the origin, unfolded to a cross of four by three squares that fills
+    /// the unit square of the pattern's plane; `z` is the greatest of the three coordinates there.
+    Cubic,
     /// Takes the pattern of a plane and extends it along z.
     Planar {
         /// The plane's normal, of any length but zero.

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use durer_formula::Formula;
-use durer_math::Vec3;
+use durer_math::{Point3, Vec3};
 
-use crate::{Cells, DensityGrid, GridBetween, ImageMap, ImageValue, Object, Pigment, Turbulence};
+use crate::{
+    Cells, DensityGrid, GridBetween, ImageMap, ImageValue, Object, Pigment, SampledFunction, Turbulence,
+};
 
 /// The function that a continuous pattern grows with.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,14 +57,27 @@ pub enum Ramp {
     Kind(Cells),
     /// A formula of x, y and z.
     Formula(Arc<Formula>),
+    /// A function of x, y and z that depends on textures.
+    Sampled(Arc<SampledFunction>),
     /// A number of a picture.
     Image(Arc<ImageMap>, ImageValue),
     /// The grey value of a pigment.
     Pigment(Box<Pigment>),
     /// 1 in an object, 0 elsewhere.
     Inside(Box<Object>),
+    /// The angle of the surface to a direction, and a height.
+    Slope(Slope),
+    /// The angle between the surface and the ray that meets it.
+    Aoi,
+    /// Tiles of the plane `y = 0`, by the number of the tiling: one of [`Ramp::TILINGS`].
+    Tiling(u8),
     /// Numbers on a grid in the unit cube.
     Density(Arc<DensityGrid>, GridBetween),
+}
+
+impl Ramp {
+    /// The numbers of the tilings that there are.
+    pub const TILINGS: [u8; 9] = [1, 2, 3, 4, 5, 6, 7, 10, 18];
 }
 
 /// A pattern made of noise.
@@ -122,6 +137,28 @@ pub struct Crackle {
     pub offset: f64,
     /// Whether all points with the same nearest point have one number.
     pub solid: bool,
+}
+
+/// The angle of a surface's normal to a direction, mixed with a height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope {
+    /// The direction or point.
+    pub to: SlopeTo,
+    /// The slopes that give 0 and 1. A slope is 0 for a normal opposite to the direction, 1/2 for a
+    /// perpendicular one, 1 for a parallel one.
+    pub range: [f64; 2],
+    /// A direction and the heights along it that give 0 and 1. Its length and that of the slope's
+    /// direction are the weights of the mean.
+    pub altitude: Option<(Vec3, [f64; 2])>,
+}
+
+/// What a slope is measured to, in the space of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SlopeTo {
+    /// A direction of any length but zero.
+    Direction(Vec3),
+    /// The direction from the surface to a point.
+    Point(Point3),
 }
 
 /// An iteration in the complex plane.

@@ -403,7 +403,7 @@ pub struct Mesh {
     pub uv: Vec<[f64; 2]>,
     /// The numbers of the texture coordinates at each face's corners, if it has any; as many as
     /// there are faces, or none for all. The coordinates of hits are interpolated between them; on
-    /// other faces the corners have (0, 0), (1, 0) and (0, 1). No texture depends on them yet.
+    /// other faces the corners have (0, 0), (1, 0) and (0, 1).
     pub uv_faces: Vec<Option<[u32; 3]>>,
     /// The textures that faces may refer to, placed in the mesh's own frame.
     pub textures: Vec<Arc<Texture>>,

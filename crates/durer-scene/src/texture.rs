@@ -19,6 +19,9 @@ pub struct Texture {
     pub body: TextureBody,
     /// The placement of the texture.
     pub placement: Placement,
+    /// Whether its pattern is shown by the surface's texture coordinates `(u, v, 0)` in place of the
+    /// point. Then only its own placement counts.
+    pub on_chart: bool,
 }
 
 /// The contents of a texture.
@@ -72,12 +75,16 @@ impl Texture {
 
     /// Makes a texture of several layers, from the innermost to the outermost.
     pub fn layers(layers: Vec<Layer>) -> Self {
-        Self { body: TextureBody::Layers(layers), placement: Placement::IDENTITY }
+        Self { body: TextureBody::Layers(layers), placement: Placement::IDENTITY, on_chart: false }
     }
 
     /// Makes a texture of other textures, selected or mixed by a pattern.
     pub fn pattern(pattern: Pattern<Arc<Texture>>) -> Self {
-        Self { body: TextureBody::Pattern(Box::new(pattern)), placement: Placement::IDENTITY }
+        Self {
+            body: TextureBody::Pattern(Box::new(pattern)),
+            placement: Placement::IDENTITY,
+            on_chart: false,
+        }
     }
 
     /// Transforms the texture by `map`.
@@ -101,6 +108,19 @@ impl Texture {
             TextureBody::Pattern(p) => p.lacks_entries() || p.entries().any(|t| t.has_empty_pattern()),
             TextureBody::Fields(fields) => fields.all().any(Self::has_empty_pattern),
         }
+    }
+
+    /// Whether anything in it is shown by texture coordinates.
+    pub fn needs_chart(&self) -> bool {
+        let of_layer = |l: &Layer| {
+            l.pigment.needs_chart() || l.normal.as_ref().is_some_and(|normal| normal.needs_chart())
+        };
+        self.on_chart
+            || match &self.body {
+                TextureBody::Layers(layers) => layers.iter().any(of_layer),
+                TextureBody::Pattern(pattern) => pattern.entries().any(|t| t.needs_chart()),
+                TextureBody::Fields(fields) => fields.all().any(Self::needs_chart),
+            }
     }
 
     /// Whether it looks the same everywhere, so that moving it has no effect.
@@ -128,6 +148,9 @@ pub struct Pigment {
     pub body: PigmentBody,
     /// From the pigment's space to that of the texture (or pigment) around it.
     pub placement: Placement,
+    /// Whether it is shown by the surface's texture coordinates `(u, v, 0)` in place of the point.
+    /// Then only its own placement counts.
+    pub on_chart: bool,
 }
 
 /// The contents of a pigment.
@@ -147,17 +170,25 @@ pub enum PigmentBody {
 impl Pigment {
     /// Makes a pigment with one colour everywhere.
     pub fn solid(colour: Colour) -> Self {
-        Self { body: PigmentBody::Solid(colour), placement: Placement::IDENTITY }
+        Self { body: PigmentBody::Solid(colour), placement: Placement::IDENTITY, on_chart: false }
     }
 
     /// Makes a pigment of colours, selected or mixed by a pattern.
     pub fn colours(pattern: Pattern<Colour>) -> Self {
-        Self { body: PigmentBody::Colours(Box::new(pattern)), placement: Placement::IDENTITY }
+        Self {
+            body: PigmentBody::Colours(Box::new(pattern)),
+            placement: Placement::IDENTITY,
+            on_chart: false,
+        }
     }
 
     /// Makes a pigment of other pigments, selected or mixed by a pattern.
     pub fn pigments(pattern: Pattern<Pigment>) -> Self {
-        Self { body: PigmentBody::Pigments(Box::new(pattern)), placement: Placement::IDENTITY }
+        Self {
+            body: PigmentBody::Pigments(Box::new(pattern)),
+            placement: Placement::IDENTITY,
+            on_chart: false,
+        }
     }
 
     /// Whether no light passes anywhere.
@@ -169,6 +200,15 @@ impl Pigment {
             PigmentBody::Pigments(pattern) => pattern.entries().all(Self::is_opaque),
             PigmentBody::Image(_, map) => !map.once && map.image.is_opaque(),
         }
+    }
+
+    /// Whether anything in it is shown by texture coordinates.
+    fn needs_chart(&self) -> bool {
+        self.on_chart
+            || match &self.body {
+                PigmentBody::Pigments(pattern) => pattern.entries().any(Self::needs_chart),
+                PigmentBody::Solid(_) | PigmentBody::Colours(_) | PigmentBody::Image(..) => false,
+            }
     }
 
     /// Whether a pattern in it has fewer entries than kinds.

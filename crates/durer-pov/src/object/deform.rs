@@ -156,7 +156,7 @@ impl Parser<'_> {
                 return Err(self.unexpected(&lexeme, &text));
             }
             let at = self.here();
-            let formula = self.float_function_block()?.formula;
+            let formula = self.exact_function_block()?;
             if formula.inputs() != 3 {
                 let text =
                     format!("a function of a point has three parameters, this one has {}", formula.inputs());

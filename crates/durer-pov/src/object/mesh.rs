@@ -28,6 +28,10 @@ pub(crate) struct Mesh {
     pub(crate) normals: Vec<[f64; 3]>,
     pub(crate) faces: Vec<Face>,
     pub(crate) textures: Vec<Rc<Texture>>,
+    /// Texture coordinates.
+    pub(crate) uv: Vec<[f64; 2]>,
+    /// The numbers of those of each face; as many as faces, or none.
+    pub(crate) uv_faces: Vec<Option<[u32; 3]>>,
     pub(crate) inside_vector: Option<[f64; 3]>,
     charge: Charge,
 }
@@ -39,13 +43,17 @@ impl Mesh {
             normals: Vec::new(),
             faces: Vec::new(),
             textures: Vec::new(),
+            uv: Vec::new(),
+            uv_faces: Vec::new(),
             inside_vector: None,
             charge: Charge::new(size_of::<Self>()),
         }
     }
 
     fn bytes(&self) -> usize {
-        (self.vertices.capacity() + self.normals.capacity()) * 24 + self.faces.capacity() * size_of::<Face>()
+        (self.vertices.capacity() + self.normals.capacity()) * 24
+            + (self.uv.capacity() + self.uv_faces.capacity()) * 16
+            + self.faces.capacity() * size_of::<Face>()
     }
 }
 
@@ -92,10 +100,13 @@ impl Parser<'_> {
                 }
             }
             if self.take_word(Keyword::UvVectors)? {
+                let first = mesh.uv.len() as u32;
                 for _ in 0..3 {
-                    self.vector2()?;
+                    mesh.uv.push(self.vector2()?);
                     self.skip_comma()?;
                 }
+                mesh.uv_faces.resize(mesh.faces.len(), None);
+                mesh.uv_faces.push(Some([first, first + 1, first + 2]));
             }
             if self.take_word(Keyword::Texture)? {
                 let texture = self.nested(Self::texture_block)?;
@@ -129,12 +140,12 @@ impl Parser<'_> {
                     self.next()?;
                     mesh.normals = self.counted(24, Self::corner)?;
                 }
-                // Without uv_mapping they say nothing.
                 Keyword::UvVectors => {
                     self.next()?;
-                    self.counted(0, |r| {
-                        r.vector2()?;
-                        r.skip_comma()
+                    mesh.uv = self.counted(16, |r| {
+                        let uv = r.vector2()?;
+                        r.skip_comma()?;
+                        Ok(uv)
                     })?;
                 }
                 Keyword::TextureList => {
@@ -171,13 +182,19 @@ impl Parser<'_> {
                 }
                 Keyword::UvIndices => {
                     self.next()?;
-                    self.counted(0, |r| r.indices(usize::MAX, "uv").map(drop))?;
+                    let count = mesh.uv.len();
+                    mesh.uv_faces = self.counted(16, |r| r.indices(count, "uv").map(Some))?;
                 }
                 _ => break,
             }
         }
         if !found {
             return Err(Error::invalid(self.here(), "this mesh2 has no face_indices"));
+        }
+        // Without indices of their own, texture coordinates go with the corners.
+        if !mesh.uv.is_empty() && mesh.uv_faces.is_empty() {
+            let known = |face: &Face| face.vertices.iter().all(|&i| (i as usize) < mesh.uv.len());
+            mesh.uv_faces = mesh.faces.iter().map(|face| known(face).then_some(face.vertices)).collect();
         }
         // A list as long as that of the corners goes with them.
         if mesh.normals.len() == mesh.vertices.len() {
@@ -263,6 +280,9 @@ impl Parser<'_> {
         }
         if self.take_word(Keyword::InsideVector)? {
             mesh.inside_vector = Some(self.normal("the inside vector")?);
+        }
+        if !mesh.uv_faces.is_empty() {
+            mesh.uv_faces.resize(mesh.faces.len(), None);
         }
         mesh.vertices.shrink_to_fit();
         mesh.normals.shrink_to_fit();

@@ -15,12 +15,19 @@ use crate::value::Value;
 impl Parser<'_> {
     /// Modifiers up to the closing brace.
     pub(crate) fn modifiers(&mut self, object: &mut Object) -> Result<()> {
+        let mut on_chart = false;
         loop {
             if let Some(by) = self.transform_item()? {
                 object.transform(&by);
                 continue;
             }
-            if self.look(object)? || self.uv_mapping()? {
+            let is_look = self.look(object)?;
+            let chart = if is_look { None } else { self.uv_mapping()? };
+            on_chart = chart.unwrap_or(on_chart);
+            if is_look || chart.is_some() {
+                if on_chart && let Some(texture) = &mut object.texture {
+                    Rc::make_mut(texture).put_on_chart();
+                }
                 continue;
             }
             let lexeme = self.next()?;

@@ -16,7 +16,7 @@ impl Parser<'_> {
         let mut functions = Vec::with_capacity(3);
         while self.peek_word()? == Some(Keyword::Function) {
             let at = self.here();
-            let formula = self.float_function_block()?.formula;
+            let formula = self.exact_function_block()?;
             let formula = of_two(&formula).map_err(|wrong| match wrong {
                 Wrong::Count(count) => Error::invalid(
                     at,

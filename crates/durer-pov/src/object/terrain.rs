@@ -13,6 +13,7 @@ use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::limits;
 use crate::parser::Parser;
+use crate::pattern_function::CANNOT_BE_UNDONE;
 use crate::picture::{self, Fault, Format};
 use crate::texture::Pigment;
 use crate::texture_builder;
@@ -109,9 +110,17 @@ impl Parser<'_> {
         let (heights, outside) = if self.take_word(Keyword::Pigment)? {
             self.sampled_pigment(size, place)?
         } else {
-            let formula = self.function_behind_brace()?;
-            self.count_steps((columns * rows / VALUES_A_STEP) as u64, place)?;
-            sampled(&formula, size)
+            let function = self.function_behind_brace()?;
+            if let Some(formula) = function.plain() {
+                self.count_steps((columns * rows / VALUES_A_STEP) as u64, place)?;
+                sampled(formula, size)
+            } else {
+                self.count_steps((columns * rows) as u64, place)?;
+                let Some(values) = function.prepared(self.texture_context()) else {
+                    return Err(Error::invalid(place, CANNOT_BE_UNDONE));
+                };
+                heights_of(size, |x, y| F8(x.0.map(|x| values.value(&[x, y, 0.0]))))
+            }
         };
         if outside > 0 {
             let all = columns * rows;

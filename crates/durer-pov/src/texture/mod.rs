@@ -71,6 +71,21 @@ impl Texture {
         }
     }
 
+    /// Shows the texture by the surface's texture coordinates.
+    pub(crate) fn put_on_chart(&mut self) {
+        match self {
+            Self::Patterned { pattern, .. } => pattern.modifiers.on_chart = true,
+            Self::Layers(layers) => {
+                for layer in layers {
+                    layer.pigment.modifiers.on_chart = true;
+                    if let Some(normal) = &mut layer.normal {
+                        Rc::make_mut(normal).modifiers.on_chart = true;
+                    }
+                }
+            }
+        }
+    }
+
     /// The number of layers in this texture, including those of its parts.
     pub(crate) fn size(&self) -> usize {
         match self {
@@ -105,16 +120,9 @@ impl Parser<'_> {
         }
     }
 
-    /// Skips `uv_mapping`, with a warning: the texture is shown by its place in space.
-    pub(crate) fn uv_mapping(&mut self) -> Result<bool> {
-        let here = self.take_word(Keyword::UvMapping)?;
-        if here {
-            let place = self.here();
-            if self.switch_value()? {
-                self.note_left_out("uv_mapping", place)?;
-            }
-        }
-        Ok(here)
+    /// Reads `uv_mapping` and its switch, if it comes next.
+    pub(crate) fn uv_mapping(&mut self) -> Result<Option<bool>> {
+        if self.take_word(Keyword::UvMapping)? { self.switch_value().map(Some) } else { Ok(None) }
     }
 
     /// Puts `above` on top of `below`.
@@ -136,6 +144,7 @@ impl Parser<'_> {
     pub(crate) fn texture_block(&mut self) -> Result<Texture> {
         self.expect(Mark::BraceOpen)?;
         let mut texture = Texture::single((*self.defaults).clone());
+        let mut on_chart = false;
         if let Item::Value(Value::Texture(known)) = self.peek()? {
             texture = (**known).clone();
             self.next()?;
@@ -148,7 +157,8 @@ impl Parser<'_> {
             if self.layer_item(&mut texture)? {
                 continue;
             }
-            if self.uv_mapping()? {
+            if let Some(here) = self.uv_mapping()? {
+                on_chart = here;
                 continue;
             }
             if self.take_word(Keyword::NoBumpScale)? {
@@ -188,6 +198,9 @@ impl Parser<'_> {
             && map.entries.is_empty()
         {
             return Err(Error::invalid(self.here(), "this patterned texture has no textures"));
+        }
+        if on_chart {
+            texture.put_on_chart();
         }
         Ok(texture)
     }

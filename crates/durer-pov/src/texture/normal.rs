@@ -87,8 +87,10 @@ impl Parser<'_> {
     /// Reads the items of a normal up to `end`, which is not taken.
     fn normal_items(&mut self, base: &Normal, end: Mark) -> Result<Normal> {
         let mut normal = base.clone();
+        let mut on_chart = false;
         loop {
             if self.at_mark(end)? {
+                normal.modifiers.on_chart |= on_chart;
                 return Ok(normal);
             }
             if let Some(by) = self.transform_item()? {
@@ -114,7 +116,8 @@ impl Parser<'_> {
                 }
                 continue;
             }
-            if self.uv_mapping()? {
+            if let Some(here) = self.uv_mapping()? {
+                on_chart = here;
                 continue;
             }
             if !self.normal_modifier(&mut normal)? {

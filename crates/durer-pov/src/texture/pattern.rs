@@ -84,6 +84,8 @@ pub(crate) struct PatternModifiers {
     pub(crate) warps: Rc<Vec<(Matrix, durer_scene::PointWarp)>>,
     /// The map from the pattern's own space to the object's.
     pub(crate) place: Matrix,
+    /// Whether the pattern is seen at the surface's texture coordinates in place of the point.
+    pub(crate) on_chart: bool,
 }
 
 impl Default for PatternModifiers {
@@ -95,6 +97,7 @@ impl Default for PatternModifiers {
             turbulence: Rc::default(),
             warps: Rc::default(),
             place: Matrix::IDENTITY,
+            on_chart: false,
         }
     }
 }
@@ -116,8 +119,12 @@ impl PatternModifiers {
         }
     }
 
+    /// Transforms the pattern with what it stands in. Texture coordinates do not move with an object
+    /// (a fact of the language).
     pub(crate) fn transform(&mut self, by: &Matrix) {
-        self.place = self.place.then(by);
+        if !self.on_chart {
+            self.place = self.place.then(by);
+        }
     }
 }
 

@@ -170,9 +170,11 @@ impl Parser<'_> {
     /// Reads the items of a pigment up to `end`, which is not taken.
     pub(crate) fn pigment_items(&mut self, base: &Pigment, end: Mark) -> Result<Pigment> {
         let mut pigment = base.clone();
-        let mut chosen = false;
+        let (mut chosen, mut on_chart) = (false, false);
         loop {
             if self.at_mark(end)? {
+                // Only what follows the block does not move it.
+                pigment.modifiers.on_chart |= on_chart;
                 return Ok(pigment);
             }
             if let Some(by) = self.transform_item()? {
@@ -222,7 +224,8 @@ impl Parser<'_> {
             {
                 continue;
             }
-            if self.uv_mapping()? {
+            if let Some(here) = self.uv_mapping()? {
+                on_chart = here;
                 continue;
             }
             if self.take_word(Keyword::QuickColor)? {

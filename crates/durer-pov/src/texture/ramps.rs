@@ -1,13 +1,15 @@
 //! Patterns with numbers of their own: spirals, fractals, crackle and others.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
-use durer_math::Vec3;
-use durer_scene::{Crackle, Fractal, FractalMap, GridBetween, Ramp};
+use durer_math::{Point3, Vec3};
+use durer_scene::{Crackle, Fractal, FractalMap, GridBetween, Ramp, Slope, SlopeTo};
 
 use super::PatternKind;
-use crate::diagnostics::{Error, Place, Result};
+use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
+use crate::lexer::Mark;
 use crate::parser::Parser;
 use crate::value::Value;
 
@@ -47,6 +49,30 @@ impl Parser<'_> {
                 };
                 Ramp::Fractal(self.fractal(map)?)
             }
+            Keyword::Slope => {
+                self.next()?;
+                Ramp::Slope(self.nested(Self::slope)?)
+            }
+            Keyword::Tiling => {
+                self.next()?;
+                let number = self.float()?;
+                if !(1.0..28.0).contains(&number) {
+                    return Err(Error::invalid(
+                        place,
+                        format!("tilings have numbers from 1 to 27, not {number}"),
+                    ));
+                }
+                let known = Ramp::TILINGS.into_iter().find(|&known| f64::from(known) == number.trunc());
+                let Some(known) = known else {
+                    let text = format!("not supported yet: tiling {number}; 1 to 7, 10 and 18 are there");
+                    return Err(Error::at(place, ErrorKind::Unsupported, text));
+                };
+                Ramp::Tiling(known)
+            }
+            Keyword::Aoi => {
+                self.next()?;
+                Ramp::Aoi
+            }
             Keyword::Function => return self.function_kind(place).map(Some),
             Keyword::ImagePattern => {
                 self.next()?;
@@ -71,12 +97,68 @@ impl Parser<'_> {
     /// Reads `function { ... }` as a pattern.
     fn function_kind(&mut self, place: Place) -> Result<PatternKind> {
         match self.function_block()? {
-            Value::Function(called) if called.formula.inputs() <= 3 => Ok(PatternKind::Ramp(
-                Rc::new(Ramp::Formula(std::sync::Arc::new(called.formula.clone()))),
-                place,
-            )),
+            Value::Function(called) if called.inputs() <= 3 => {
+                let ramp = match called.plain() {
+                    Some(formula) => Ramp::Formula(Arc::new(formula.clone())),
+                    None => Ramp::Sampled(Arc::new(called.scene())),
+                };
+                Ok(PatternKind::Ramp(Rc::new(ramp), place))
+            }
             _ => Err(Error::invalid(place, "the function of a pattern gives one number for x, y and z")),
         }
+    }
+
+    /// Reads `{ DIRECTION [, LOW, HIGH] [altitude AXIS [, LOW, HIGH]] }` or `{ point_at POINT [, LOW, HIGH] }`.
+    ///
+    /// The braces may be left out, as in scenes of older versions.
+    fn slope(&mut self) -> Result<Slope> {
+        let has_braces = self.take_mark(Mark::BraceOpen)?;
+        let is_point = self.take_word(Keyword::PointAt)?;
+        self.peek()?;
+        let place = self.here();
+        let [x, y, z] = self.vector()?;
+        let to = if is_point {
+            SlopeTo::Point(Point3::new(x, y, z))
+        } else if [x, y, z] == [0.0; 3] {
+            return Err(Error::invalid(place, "a slope needs a direction that is not zero"));
+        } else {
+            SlopeTo::Direction(Vec3::new(x, y, z))
+        };
+        let range = self.slope_range(has_braces)?;
+        let mut altitude = None;
+        if !is_point && self.take_word(Keyword::Altitude)? {
+            let [x, y, z] = self.vector()?;
+            if [x, y, z] == [0.0; 3] {
+                return Err(Error::invalid(
+                    place,
+                    "the altitude of a slope needs a direction that is not zero",
+                ));
+            }
+            altitude = Some((Vec3::new(x, y, z), self.slope_range(has_braces)?));
+        }
+        if has_braces {
+            self.expect(Mark::BraceClose)?;
+        }
+        Ok(Slope { to, range, altitude })
+    }
+
+    /// Reads two different numbers, if a comma or a number follows; 0 and 1 if not.
+    fn slope_range(&mut self, has_braces: bool) -> Result<[f64; 2]> {
+        // Without braces a number is the amount of a normal.
+        let has_comma = self.take_mark(Mark::Comma)?;
+        if !(has_comma || has_braces) || !self.starts_number()? {
+            return Ok([0.0, 1.0]);
+        }
+        self.peek()?;
+        let place = self.here();
+        let low = self.float()?;
+        self.skip_comma()?;
+        let high = self.float()?;
+        if low == high {
+            let text = format!("a range of slopes or heights from {low} to {high} is empty");
+            return Err(Error::invalid(place, text));
+        }
+        Ok([low, high])
     }
 
     /// Reads `mandel N` or `julia <re, im>, N`.

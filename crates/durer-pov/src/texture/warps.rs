@@ -34,7 +34,7 @@ impl Parser<'_> {
             Item::Word(Keyword::Spherical) => self.wrap(Around::Sphere),
             Item::Word(Keyword::Toroidal) => self.wrap(Around::Torus(1.0)),
             Item::Word(Keyword::Planar) => self.planar_warp(),
-            Item::Word(Keyword::Cubic) => Err(Error::unsupported(lexeme.place, "cubic")),
+            Item::Word(Keyword::Cubic) => Ok(PointWarp::Cubic),
             _ => Err(self.unexpected(&lexeme, "the kind of a warp")),
         }
     }

@@ -63,8 +63,8 @@ impl<'w> Lamps<'w> {
             // compiler mixes the lanes.
             self.fall(isa, lamp, (double, behind), spots);
             for (k, finish) in coats.finishes.iter().enumerate() {
-                if let Some(views) = coats.bent(k) {
-                    self.turn(views, (double, behind));
+                if let Some((views, _)) = coats.bent(k) {
+                    self.turn(views, behind);
                 }
                 let before: Vec<Rgb8> = match finish.irid {
                     Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
@@ -185,16 +185,13 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Computes how the light falls on the perturbed surface of a layer. No light comes through the
-    /// unperturbed surface.
-    fn turn(&mut self, (views, plain): (&[View], &[View]), (double, behind): (bool, bool)) {
-        for ((falling, view), plain) in self.falling.iter_mut().zip(views).zip(plain) {
+    /// Computes how the light falls on the perturbed surface of a layer. Light from behind the
+    /// unperturbed surface counts if nothing blocks it (a fact of the scene language).
+    fn turn(&mut self, views: &[View], behind: bool) {
+        for (falling, view) in self.falling.iter_mut().zip(views) {
             let at = &mut falling.at;
-            let (own, of_plain) = (dot(at.to_light, view.normal), dot(at.to_light, plain.normal));
-            let together = (own * of_plain).gt(F8::ZERO) | M8::splat(double);
-            let in_front = M8::splat(behind) | !own.le(F8::ZERO);
-            at.cosine = own;
-            at.live = falling.lit & together & in_front;
+            at.cosine = dot(at.to_light, view.normal);
+            at.live = falling.lit & (M8::splat(behind) | !at.cosine.le(F8::ZERO));
         }
     }
 

@@ -13,10 +13,10 @@ use super::shading_point::Spot;
 use crate::lanes::{Colour8, Rgb8};
 use crate::material::{Finish, Mirror, View};
 use crate::sampler::random;
-use crate::texture::RenderLayer;
+use crate::texture::{Around8, RenderLayer};
 use crate::vector::dot;
 use crate::world::World;
-use durer_math::{F8, Isa, M8};
+use durer_math::{F8, Isa, M8, Vec3};
 use durer_scene::Colour;
 
 /// What is left to compute after the layers of some spots were applied: direct light and
@@ -39,6 +39,8 @@ pub(super) struct Coats<'w> {
     mirror_views: Vec<View>,
     /// The views of the unperturbed surface; empty likewise.
     plain: Vec<View>,
+    /// Of bumpy surfaces: the normals of the outermost layer.
+    top_normals: Vec<Vec3<F8>>,
     /// The number of spots.
     spots: usize,
     /// The lanes of each spot that see the current layer.
@@ -90,6 +92,7 @@ impl<'w> Coats<'w> {
         self.lit_views.clear();
         self.mirror_views.clear();
         self.plain.clear();
+        self.top_normals.clear();
         let is_bumpy = layers.iter().any(|coat| coat.normal.is_some());
         if is_bumpy {
             self.plain.extend(spots.iter().map(|spot| spot.view));
@@ -120,12 +123,18 @@ impl<'w> Coats<'w> {
             );
             if is_bumpy {
                 self.bend(coat, spots);
+                if self.top_normals.is_empty() {
+                    self.top_normals.extend(spots.iter().map(|spot| spot.view.normal));
+                }
             }
-            coat.pigment.show(
-                isa,
-                spots.iter().zip(&self.live).map(|(s, &live)| (s.inside, live)),
-                &mut self.paint,
-            );
+            let top_normals = &self.top_normals;
+            let seen = |(i, (spot, &live)): (usize, (&Spot, &M8))| {
+                // The patterns of all layers see the normals of the outermost one (a fact of the
+                // scene language).
+                let normals = top_normals.get(i).copied().unwrap_or(spot.view.normal);
+                (spot.inside, Around8 { normals, ..spot.around() }, live)
+            };
+            coat.pigment.show(isa, spots.iter().zip(&self.live).enumerate().map(seen), &mut self.paint);
             self.lay_on((world, isa), &coat.finish, spots);
             if coat.finish.is_lit && coat.finish.crand > 0.0 {
                 draws += 1;
@@ -163,8 +172,9 @@ impl<'w> Coats<'w> {
     fn perturb(&self, coat: &RenderLayer, spots: &mut [Spot]) {
         let Some(normal) = &coat.normal else { return };
         for (spot, &live) in spots.iter_mut().zip(&self.live) {
+            let around = spot.around();
             let view = &mut spot.view;
-            view.normal = normal.perturbed(spot.inside, view.normal, live);
+            view.normal = normal.perturbed(spot.inside, &around, live);
             view.cosine = (-dot(view.normal, view.eye)).max(F8::ZERO).min(F8::ONE);
         }
     }

@@ -4,10 +4,12 @@ use super::bundle::{Paths8, is_dense};
 use super::group::Piece;
 use crate::lanes::Rgb8;
 use crate::material::View;
+use crate::texture::Around8;
 use crate::vector::{dot, length};
 use durer_geometry::{Hits8, Rays8};
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{F8, Isa, M8, Point3, Vec3};
+use durer_scene::Chart;
 
 /// Eight points to be shaded.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +27,8 @@ pub(super) struct Spot {
     pub(super) distance: F8,
     /// The points in the space of their texture.
     pub(super) inside: Point3<F8>,
+    /// The texture coordinates, if the texture is shown by them.
+    pub(super) uv: [F8; 2],
     /// The light found so far.
     pub(super) sum: Rgb8,
     /// The fraction of light that the layers so far let pass.
@@ -32,6 +36,12 @@ pub(super) struct Spot {
 }
 
 impl Spot {
+    /// What patterns may know of the surface there.
+    #[inline(always)]
+    pub(super) fn around(&self) -> Around8 {
+        Around8 { points: self.hits.p, normals: self.view.normal, rays: self.view.eye, uv: self.uv }
+    }
+
     const NONE: Self = Self {
         live: M8::NONE,
         hits: Hits8::NONE,
@@ -39,6 +49,7 @@ impl Spot {
         view: View { eye: Rays8::NONE.direction, normal: Hits8::NONE.ns, cosine: F8::ONE },
         distance: F8::ZERO,
         inside: Hits8::NONE.p,
+        uv: [F8::ZERO; 2],
         sum: Rgb8::BLACK,
         passed: Rgb8::WHITE,
     };
@@ -52,6 +63,7 @@ impl Spot {
         to.ng.set_lane(i, hits.ng.lane(j));
         to.ns.set_lane(i, hits.ns.lane(j));
         to.off.0[i] = hits.off.0[j];
+        to.primitive[i] = hits.primitive[j];
         to.source.copy_lane(i, &hits.source, j);
         self.view.eye.set_lane(i, direction.lane(j));
         self.paths.copy_lane(i, paths, j);
@@ -64,6 +76,9 @@ impl Spot {
         self.view.normal.set_lane(i, from.view.normal.lane(j));
         self.view.cosine.0[i] = from.view.cosine.0[j];
         self.distance.0[i] = from.distance.0[j];
+        for (to, from) in self.uv.iter_mut().zip(&from.uv) {
+            to.0[i] = from.0[j];
+        }
         let p = &mut self.inside;
         (p.x.0[i], p.y.0[i], p.z.0[i]) = (from.inside.x.0[j], from.inside.y.0[j], from.inside.z.0[j]);
     }
@@ -172,6 +187,17 @@ impl Spots {
             },
         );
         &mut self.spots[..self.used]
+    }
+}
+
+/// Computes the texture coordinates.
+pub(super) fn map_to_chart(chart: &Chart, spots: &mut [Spot]) {
+    for spot in spots {
+        for i in spot.live.lanes() {
+            let p = spot.hits.p.to_vec().lane(i).to_point();
+            let [u, v] = chart.uv(p, spot.hits.primitive[i]);
+            (spot.uv[0].0[i], spot.uv[1].0[i]) = (u, v);
+        }
     }
 }
 

@@ -3,11 +3,12 @@
 use super::bundle::{Bundle, BundleState, DEEPEST, Paths8, TOGETHER, see};
 use super::group::{Piece, cut, sort};
 use super::media::Crossing;
-use super::shading_point::{Spot, Spots};
+use super::shading_point::{Spot, Spots, map_to_chart};
 use crate::lanes::Rgb8;
 use crate::progress::Progress;
 use crate::ray_end::RayEnd;
 use crate::stats::RayCounts;
+use crate::texture::Around8;
 use crate::vector::{dot, length};
 use crate::world::{Look, World};
 use durer_geometry::{CandidateList, Hits8, Rays8, Scratch};
@@ -235,7 +236,15 @@ impl<'w> Shadows<'w> {
 #[inline(always)]
 fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let direction = spot.view.eye;
-    let mut left = spot.paths.factor * world.paints[look.paint as usize].passed(spot.hits.p, spot.live);
+    let ng = spot.hits.ng;
+    // Patterns and bumps see the normal on the side from which the ray comes.
+    let facing = F8::ZERO.lt(dot(ng, direction)).select3(ng * F8::splat(-1.0), ng);
+    if let Some(chart) = look.chart {
+        map_to_chart(&world.charts[chart as usize], core::slice::from_mut(spot));
+    }
+    let around = Around8 { points: spot.hits.p, normals: facing, rays: direction, uv: spot.uv };
+    let paint = &world.paints[look.paint as usize];
+    let mut left = spot.paths.factor * paint.passed(spot.hits.p, &around, spot.live);
     let goes_on = spot.live & !left.is_black();
     let speed = length(direction);
     let medium = &world.media[look.medium as usize];
@@ -243,10 +252,7 @@ fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
         left = left * medium.shadow_after(spot.hits.t * speed, goes_on);
     }
     if let Some(power) = medium.caustics {
-        let ng = spot.hits.ng;
-        // Bumps perturb the normal on the side from which the ray comes.
-        let facing = F8::ZERO.lt(dot(ng, direction)).select3(ng * F8::splat(-1.0), ng);
-        let normal = world.paints[look.paint as usize].top_normal(spot.hits.p, facing, goes_on);
+        let normal = paint.top_normal(spot.hits.p, &around, goes_on);
         let cosine = dot(normal, direction).abs() / speed;
         left = left * (F8::ONE + power.lanes(cosine, goes_on));
     }

@@ -21,7 +21,7 @@ use super::layers::{Coats, draws};
 use super::media::Interface;
 use super::record::{RayTree, Record};
 use super::secondary::{Onward, Part};
-use super::shading_point::{Spot, Spots, face};
+use super::shading_point::{Spot, Spots, face, map_to_chart};
 use crate::camera::Camera;
 use crate::fog::{RenderFog, Ways, veil};
 use crate::lanes::Rgb8;
@@ -305,6 +305,9 @@ impl<'w> Whitted<'w> {
             let world = self.world;
             self.see_through_fog(world.fogs_in(&standing.media), standing.node, spots);
             let look = part[0].look(world);
+            if let Some(chart) = look.chart {
+                map_to_chart(&world.charts[chart as usize], spots);
+            }
             let border = Interface::new(world, &standing.media, look.medium, part[0].is_grazing());
             let part = Part { look, border, standing };
             self.paint(&part, &world.paints[look.paint as usize], spots, &mut 0);
@@ -374,7 +377,7 @@ impl<'w> Whitted<'w> {
             }
             RenderTexture::Pattern(place, blend) => {
                 for spot in &mut *spots {
-                    spot.inside = place.inside_lanes(spot.inside);
+                    spot.inside = place.inside_lanes(spot.inside, &spot.around());
                 }
                 self.blend(part, blend, spots, stack);
             }
@@ -423,7 +426,7 @@ impl<'w> Whitted<'w> {
     ) {
         let mut shown = Vec::new();
         for spot in spots {
-            shown.push(blend.at_lanes(spot.inside, spot.live));
+            shown.push(blend.at_lanes(spot.inside, &spot.around(), spot.live));
         }
         let mut some = Spots::default();
         for entry in 0..blend.len() {

@@ -70,7 +70,7 @@ impl Weights {
     pub(crate) fn shown(&self, p: Point3, shown: &mut Vec<(u32, f64)>) {
         shown.clear();
         let mut sum = 0.0;
-        self.blob.fields_at(self.place.inside(p), |component, value| {
+        self.blob.fields_at(self.place.inside(p, super::Around::NOWHERE), |component, value| {
             let (texture, part) = (self.of.get(component).copied().unwrap_or(0), value.abs());
             sum += part;
             match shown.iter_mut().find(|(known, _)| *known == texture) {

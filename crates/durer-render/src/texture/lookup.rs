@@ -2,6 +2,7 @@
 
 use super::field::Field;
 use super::wave::Shape;
+use super::{Around, Around8};
 use crate::vector::{floor, floor_lanes};
 use durer_math::{AffineError, F8, M8, Point3};
 use durer_scene::Value;
@@ -33,8 +34,8 @@ impl Lookup {
 
     /// The value at a point.
     #[inline]
-    pub(super) fn value(&self, p: Point3) -> f64 {
-        let ramp = self.field.value(p);
+    pub(super) fn value(&self, p: Point3, around: Around) -> f64 {
+        let ramp = self.field.value(p, around);
         if self.frequency == 0.0 {
             return if ramp < 0.0 { ramp - floor(ramp) } else { ramp };
         }
@@ -45,8 +46,8 @@ impl Lookup {
 
     /// The values at some points.
     #[inline(always)]
-    pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
-        let ramp = self.field.values(p, live);
+    pub(super) fn values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
+        let ramp = self.field.values(p, around, live);
         if self.frequency == 0.0 {
             return ramp.lt(F8::ZERO).select(ramp - floor_lanes(ramp), ramp);
         }
@@ -68,7 +69,7 @@ mod tests {
         let value =
             Value { ramp: Ramp::Gradient(Vec3::new(0.0, 2.0, 0.0)), frequency, phase, wave: Wave::Ramp };
         let lookup = Lookup::new(&value).unwrap();
-        move |y| lookup.value(Point3::new(3.0, y, 4.0))
+        move |y| lookup.value(Point3::new(3.0, y, 4.0), Around::NOWHERE)
     }
 
     fn close(a: f64, b: f64) -> bool {
@@ -118,9 +119,13 @@ mod tests {
             for k in -40..40 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.7), x(1.0), x(-0.3));
-                let values = lookup.values(p, M8::ALL);
+                let values = lookup.values(p, &Around8::NOWHERE, M8::ALL);
                 for i in 0..8 {
-                    assert_eq!(values.0[i], lookup.value(p.to_vec().lane(i).to_point()), "{wave:?}");
+                    assert_eq!(
+                        values.0[i],
+                        lookup.value(p.to_vec().lane(i).to_point(), Around::NOWHERE),
+                        "{wave:?}"
+                    );
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Textures prepared for rendering: placements combined and inverted, constants precomputed.
 
+mod around;
 mod brick;
 mod cells;
 mod checker;
@@ -11,15 +12,18 @@ mod lookup;
 mod normal;
 mod picture;
 mod place;
+mod sampled;
 mod square;
 mod triangular;
 mod warp;
 mod wave;
 
+pub(crate) use self::around::{Around, Around8};
 pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
 pub(crate) use self::grains::{Grains, building_with, number_of_waves};
 pub(crate) use self::place::Place;
+pub(crate) use self::sampled::Sampled;
 
 use durer_math::lanes::LANES;
 use durer_math::{Affine, AffineError, F8, Isa, M8, Point3};
@@ -136,7 +140,7 @@ impl<T> Blend<T> {
 
     /// The entries at a point; `None` only for a pattern without entries.
     #[inline]
-    pub(crate) fn at(&self, p: Point3) -> Option<Shown> {
+    pub(crate) fn at(&self, p: Point3, around: Around) -> Option<Shown> {
         match self {
             Self::Cells(cutter, entries) => {
                 Some(Shown::One(cutter.kind(p).min(entries.len().checked_sub(1)?)))
@@ -145,23 +149,23 @@ impl<T> Blend<T> {
             Self::Picture(picture, entries) => {
                 (!entries.is_empty()).then(|| Shown::One(picture.index(p) % entries.len()))
             }
-            Self::Map(lookup, entries) => looked_up(entries, lookup.value(p)),
+            Self::Map(lookup, entries) => looked_up(entries, lookup.value(p, around)),
         }
     }
 
     /// The entries at some points.
-    pub(crate) fn at_lanes(&self, p: Point3<F8>, live: M8) -> [Option<Shown>; LANES] {
+    pub(crate) fn at_lanes(&self, p: Point3<F8>, around: &Around8, live: M8) -> [Option<Shown>; LANES] {
         let mut shown = [None; LANES];
         match self {
             Self::Map(lookup, entries) => {
-                let w = lookup.values(p, live);
+                let w = lookup.values(p, around, live);
                 for i in live.lanes() {
                     shown[i] = looked_up(entries, w.0[i]);
                 }
             }
             _ => {
                 for i in live.lanes() {
-                    shown[i] = self.at(p.to_vec().lane(i).to_point());
+                    shown[i] = self.at(p.to_vec().lane(i).to_point(), around.lane(i));
                 }
             }
         }
@@ -200,7 +204,7 @@ impl<T> Blend<T> {
 impl Blend<Colour> {
     /// The colours at some points.
     #[inline(always)]
-    fn colours(&self, p: Point3<F8>, live: M8) -> Colour8 {
+    fn colours(&self, p: Point3<F8>, around: &Around8, live: M8) -> Colour8 {
         match self {
             Self::Cells(cutter, entries) => {
                 let last = entries.len().saturating_sub(1);
@@ -221,7 +225,7 @@ impl Blend<Colour> {
             Self::Mean(entries) if entries.is_empty() => Colour8::splat(Colour::default()),
             Self::Mean(_) => Colour8::splat(self.mean(|colour| *colour)),
             Self::Map(lookup, entries) => {
-                let w = lookup.values(p, live);
+                let w = lookup.values(p, around, live);
                 let mut shown = Colour8::splat(Colour::default());
                 // In reverse order, so that the first entry not below `w` is used.
                 for (i, &(at, colour)) in entries.iter().enumerate().rev() {
@@ -243,14 +247,14 @@ impl Blend<Colour> {
 
 impl Blend<RenderPigment> {
     /// The colours at some points.
-    fn shades(&self, p: Point3<F8>, live: M8) -> Colour8 {
-        let shown = self.at_lanes(p, live);
+    fn shades(&self, p: Point3<F8>, around: &Around8, live: M8) -> Colour8 {
+        let shown = self.at_lanes(p, around, live);
         let mut sum = Colour8::splat(Colour { rgb: Rgb::BLACK, filter: 0.0, transmit: 0.0 });
         for entry in 0..self.len() {
             let weight = F8(shown.map(|shown| shown.map_or(0.0, |shown| self.part(shown, entry))));
             let lanes = live & !weight.equals(F8::ZERO);
             if lanes.any() {
-                let colours = self.entry(entry).colours(p, lanes);
+                let colours = self.entry(entry).colours(p, around, lanes);
                 sum = sum.plus(colours, weight, lanes);
             }
         }
@@ -260,39 +264,45 @@ impl Blend<RenderPigment> {
 
 impl RenderPigment {
     pub(crate) fn new(pigment: &Pigment, around: &Affine) -> Result<Self, AffineError> {
-        let joined = || pigment.placement.affine().then(around);
+        let on_chart = pigment.on_chart;
+        let joined = || match on_chart {
+            true => Ok(*pigment.placement.affine()),
+            false => pigment.placement.affine().then(around),
+        };
         Ok(match &pigment.body {
             PigmentBody::Solid(colour) => Self::Solid(*colour),
-            PigmentBody::Colours(pattern) => {
-                Self::Colours(Place::warped(&joined()?, pattern), Box::new(Blend::new(pattern, |c| Ok(*c))?))
-            }
+            PigmentBody::Colours(pattern) => Self::Colours(
+                Place::warped(&joined()?, pattern).on_chart(on_chart),
+                Box::new(Blend::new(pattern, |c| Ok(*c))?),
+            ),
             PigmentBody::Pigments(pattern) => Self::Shades(
-                Place::warped(&joined()?, pattern),
+                Place::warped(&joined()?, pattern).on_chart(on_chart),
                 Box::new(Blend::new(pattern, |p| Self::new(p, &Affine::IDENTITY))?),
             ),
             PigmentBody::Image(warps, map) => {
-                Self::Picture(Place::through(&joined()?, warps), Picture::new(map))
+                Self::Picture(Place::through(&joined()?, warps).on_chart(on_chart), Picture::new(map))
             }
         })
     }
 
     /// The colour at a point.
-    pub(crate) fn at(&self, p: Point3) -> Colour {
+    pub(crate) fn at(&self, p: Point3, around: Around) -> Colour {
         match self {
             Self::Solid(colour) => *colour,
-            Self::Picture(place, picture) => picture.colour(place.inside(p)),
-            Self::Colours(place, blend) => match blend.at(place.inside(p)) {
+            Self::Picture(place, picture) => picture.colour(place.inside(p, around)),
+            Self::Colours(place, blend) => match blend.at(place.inside(p, around), around) {
                 Some(Shown::One(i)) => *blend.entry(i),
                 Some(Shown::Two(i, k)) => blend.entry(i - 1).mix(*blend.entry(i), k),
                 Some(Shown::Each) => blend.mean(|colour| *colour),
                 None => Colour::default(),
             },
             Self::Shades(place, blend) => {
-                let p = place.inside(p);
-                match blend.at(p) {
-                    Some(Shown::One(i)) => blend.entry(i).at(p),
-                    Some(Shown::Two(i, k)) => blend.entry(i - 1).at(p).mix(blend.entry(i).at(p), k),
-                    Some(Shown::Each) => blend.mean(|shade| shade.at(p)),
+                let p = place.inside(p, around);
+                let shade = |i: usize| blend.entry(i).at(p, around);
+                match blend.at(p, around) {
+                    Some(Shown::One(i)) => shade(i),
+                    Some(Shown::Two(i, k)) => shade(i - 1).mix(shade(i), k),
+                    Some(Shown::Each) => blend.mean(|shade| shade.at(p, around)),
                     None => Colour::default(),
                 }
             }
@@ -303,7 +313,7 @@ impl RenderPigment {
     pub(crate) fn show(
         &self,
         isa: Isa,
-        points: impl Iterator<Item = (Point3<F8>, M8)>,
+        points: impl Iterator<Item = (Point3<F8>, Around8, M8)>,
         colours: &mut [Colour8],
     ) {
         if let Self::Solid(colour) = self {
@@ -313,8 +323,8 @@ impl RenderPigment {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                for ((p, live), colours) in points.zip(colours) {
-                    *colours = self.colours(p, live);
+                for ((p, around, live), colours) in points.zip(colours) {
+                    *colours = self.colours(p, &around, live);
                 }
             },
         );
@@ -322,13 +332,13 @@ impl RenderPigment {
 
     /// The colours at some points.
     #[inline(always)]
-    pub(crate) fn colours(&self, p: Point3<F8>, live: M8) -> Colour8 {
+    pub(crate) fn colours(&self, p: Point3<F8>, around: &Around8, live: M8) -> Colour8 {
         match self {
             Self::Solid(colour) => Colour8::splat(*colour),
-            Self::Colours(place, blend) => blend.colours(place.inside_lanes(p), live),
-            Self::Shades(place, blend) => blend.shades(place.inside_lanes(p), live),
+            Self::Colours(place, blend) => blend.colours(place.inside_lanes(p, around), around, live),
+            Self::Shades(place, blend) => blend.shades(place.inside_lanes(p, around), around, live),
             Self::Picture(place, picture) => {
-                let p = place.inside_lanes(p).to_vec();
+                let p = place.inside_lanes(p, around).to_vec();
                 Colour8::by_lane(live, |i| picture.colour(p.lane(i).to_point()))
             }
         }
@@ -364,11 +374,14 @@ impl RenderTexture {
                 Self::Layers(layers.iter().map(coat).collect::<Result<_, AffineError>>()?)
             }
             TextureBody::Pattern(pattern) => {
-                let own = joined()?;
+                let own = if texture.on_chart { *texture.placement.affine() } else { joined()? };
                 let world = own.then(outer)?;
                 let part =
                     |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
-                Self::Pattern(Place::warped(&own, pattern), Box::new(Blend::new(pattern, part)?))
+                Self::Pattern(
+                    Place::warped(&own, pattern).on_chart(texture.on_chart),
+                    Box::new(Blend::new(pattern, part)?),
+                )
             }
             TextureBody::Fields(fields) => {
                 let around = joined()?;
@@ -378,38 +391,35 @@ impl RenderTexture {
         })
     }
 
-    /// The normals of the outermost layer at some points, perturbed from `n`. Patterns of textures
+    /// The normals of the outermost layer at some points, perturbed from those
+    /// around. Patterns of textures
     /// perturb nothing here.
-    pub(crate) fn top_normal(
-        &self,
-        p: Point3<F8>,
-        n: durer_math::Vec3<F8>,
-        live: M8,
-    ) -> durer_math::Vec3<F8> {
+    pub(crate) fn top_normal(&self, p: Point3<F8>, around: &Around8, live: M8) -> durer_math::Vec3<F8> {
+        let n = around.normals;
         let Self::Layers(coats) = self else { return n };
         let Some(normal) = coats.last().and_then(|coat| coat.normal.as_ref()) else { return n };
         let mut unit = n;
         for i in live.lanes() {
             unit.set_lane(i, crate::vector::unit(n.lane(i)));
         }
-        normal.perturbed(p, unit, live)
+        normal.perturbed(p, &Around8 { normals: unit, ..*around }, live)
     }
 
     /// The factor of light that passes the texture at some points.
     #[inline(always)]
-    pub(crate) fn passed(&self, p: Point3<F8>, live: M8) -> Rgb8 {
+    pub(crate) fn passed(&self, p: Point3<F8>, around: &Around8, live: M8) -> Rgb8 {
         match self {
             Self::Layers(coats) => {
                 let mut left = Rgb8::WHITE;
                 for coat in coats {
-                    left = left * coat.pigment.colours(p, live).passed();
+                    left = left * coat.pigment.colours(p, around, live).passed();
                 }
                 left
             }
             Self::Pattern(..) | Self::Fields(_) => {
                 let mut left = Rgb8::BLACK;
                 for i in live.lanes() {
-                    left.set_lane(i, self.passed_at(p.to_vec().lane(i).to_point()));
+                    left.set_lane(i, self.passed_at(p.to_vec().lane(i).to_point(), around.lane(i)));
                 }
                 left
             }
@@ -417,20 +427,19 @@ impl RenderTexture {
     }
 
     /// The factor of light that passes the texture at a point.
-    fn passed_at(&self, p: Point3) -> Rgb {
+    fn passed_at(&self, p: Point3, around: Around) -> Rgb {
         match self {
             Self::Layers(coats) => {
-                coats.iter().fold(Rgb::WHITE, |left, coat| left * coat.pigment.at(p).passed())
+                coats.iter().fold(Rgb::WHITE, |left, coat| left * coat.pigment.at(p, around).passed())
             }
             Self::Pattern(place, blend) => {
-                let p = place.inside(p);
-                match blend.at(p) {
-                    Some(Shown::One(i)) => blend.entry(i).passed_at(p),
-                    Some(Shown::Two(i, k)) => {
-                        blend.entry(i - 1).passed_at(p) * (1.0 - k) + blend.entry(i).passed_at(p) * k
-                    }
+                let p = place.inside(p, around);
+                let passed = |i: usize| blend.entry(i).passed_at(p, around);
+                match blend.at(p, around) {
+                    Some(Shown::One(i)) => passed(i),
+                    Some(Shown::Two(i, k)) => passed(i - 1) * (1.0 - k) + passed(i) * k,
                     Some(Shown::Each) => (0..blend.len()).fold(Rgb::BLACK, |passed, i| {
-                        passed + blend.entry(i).passed_at(p) * blend.part(Shown::Each, i)
+                        passed + blend.entry(i).passed_at(p, around) * blend.part(Shown::Each, i)
                     }),
                     None => Rgb::BLACK,
                 }
@@ -438,7 +447,8 @@ impl RenderTexture {
             Self::Fields(weights) => {
                 let mut shown = Vec::new();
                 weights.shown(p, &mut shown);
-                let passed = |&(texture, part): &(u32, f64)| weights.texture(texture).passed_at(p) * part;
+                let passed =
+                    |&(texture, part): &(u32, f64)| weights.texture(texture).passed_at(p, around) * part;
                 shown.iter().map(passed).fold(Rgb::BLACK, |sum, passed| sum + passed)
             }
         }
@@ -462,7 +472,7 @@ mod tests {
     }
 
     fn at(shade: &RenderPigment, x: f64) -> f64 {
-        shade.at(Point3::new(x, 0.0, 0.0)).rgb.r
+        shade.at(Point3::new(x, 0.0, 0.0), Around::NOWHERE).rgb.r
     }
 
     #[test]
@@ -489,9 +499,13 @@ mod tests {
         let RenderTexture::Layers(coats) = &paint else { unreachable!() };
         let seen = [10.5, 11.5, 12.5, 13.5, 14.5].map(|x| {
             let p = Point3::new(x, 0.5, 0.5);
-            let lanes = coats[0].pigment.colours(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL);
-            assert_eq!(lanes.rgb.lane(3), coats[0].pigment.at(p).rgb);
-            coats[0].pigment.at(p).rgb.r
+            let lanes = coats[0].pigment.colours(
+                Vec3::<F8>::splat(p.to_vec()).to_point(),
+                &Around8::NOWHERE,
+                M8::ALL,
+            );
+            assert_eq!(lanes.rgb.lane(3), coats[0].pigment.at(p, Around::NOWHERE).rgb);
+            coats[0].pigment.at(p, Around::NOWHERE).rgb.r
         });
         assert_eq!(seen, [0.0, 0.0, 1.0, 1.0, 0.0]);
     }
@@ -512,9 +526,9 @@ mod tests {
             for k in -50..50 {
                 let x = |a: f64| F8(core::array::from_fn(|i| (f64::from(k) + 0.125 * i as f64) * a));
                 let p = Point3::new(x(0.31), x(0.2), x(-0.17));
-                let colours = shade.colours(p, M8::ALL);
+                let colours = shade.colours(p, &Around8::NOWHERE, M8::ALL);
                 for i in 0..8 {
-                    let want = shade.at(p.to_vec().lane(i).to_point());
+                    let want = shade.at(p.to_vec().lane(i).to_point(), Around::NOWHERE);
                     let (filter, transmit) = (colours.filter.0[i], colours.transmit.0[i]);
                     assert_eq!(Colour { rgb: colours.rgb.lane(i), filter, transmit }, want);
                 }
@@ -534,9 +548,12 @@ mod tests {
         let paint = RenderTexture::new(&texture, &Affine::IDENTITY, &Affine::IDENTITY, Rgb::WHITE).unwrap();
         let RenderTexture::Pattern(place, blend) = &paint else { unreachable!() };
         let p = Point3::new(0.25, 0.0, 0.0);
-        let shown = blend.at(place.inside(p)).unwrap();
+        let shown = blend.at(place.inside(p, Around::NOWHERE), Around::NOWHERE).unwrap();
         assert_eq!([0, 1, 2].map(|i| blend.part(shown, i)), [0.75, 0.25, 0.0]);
         assert_eq!((blend.part(Shown::One(1), 0), blend.part(Shown::One(1), 1)), (0.0, 1.0));
-        assert_eq!(paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::ALL), Rgb8::WHITE);
+        assert_eq!(
+            paint.passed(Vec3::<F8>::splat(p.to_vec()).to_point(), &Around8::NOWHERE, M8::ALL),
+            Rgb8::WHITE
+        );
     }
 }

@@ -17,7 +17,7 @@ use durer_scene::{Height, ImageValue, Normal, NormalBody};
 use super::field::Pusher;
 use super::lookup::Lookup;
 use super::place::Place;
-use super::{Blend, Picture, Shown};
+use super::{Around, Around8, Blend, Picture, Shown};
 use crate::vector::unit;
 
 /// A [`Normal`] with its constants precomputed.
@@ -61,9 +61,12 @@ const CORNERS: [[f64; 3]; 4] = {
 impl RenderNormal {
     /// Prepares a normal that is placed by `around`; that space is placed in the world by `outer`.
     pub(crate) fn new(normal: &Normal, around: &Affine, outer: &Affine) -> Result<Self, AffineError> {
-        let local = normal.placement.affine().then(around)?;
+        // On a chart the normal is not turned with the pattern.
+        let on_chart = normal.on_chart;
+        let own = *normal.placement.affine();
+        let local = if on_chart { own } else { own.then(around)? };
         let world = local.then(outer)?;
-        let turn = (world.as_translation().is_none()).then(|| {
+        let turn = (!on_chart && world.as_translation().is_none()).then(|| {
             let (linear, inverse) = (world.linear(), world.inverse_linear());
             Box::new((transposed(&linear), transposed(&inverse)))
         });
@@ -89,21 +92,22 @@ impl RenderNormal {
                 (Place::warped(&local, pattern), Body::Normals(Box::new(blend)))
             }
         };
-        Ok(Self { place, turn, keeps_slope: normal.keeps_slope, body })
+        Ok(Self { place: place.on_chart(on_chart), turn, keeps_slope: normal.keeps_slope, body })
     }
 
-    /// The unit normals at some points, perturbed from the unit normals `n`.
-    pub(crate) fn perturbed(&self, p: Point3<F8>, n: Vec3<F8>, live: M8) -> Vec3<F8> {
+    /// The unit normals at some points, perturbed from those around.
+    pub(crate) fn perturbed(&self, p: Point3<F8>, around: &Around8, live: M8) -> Vec3<F8> {
+        let n = around.normals;
         let mut all = n;
         for i in live.lanes() {
-            all.set_lane(i, self.at(p.to_vec().lane(i).to_point(), n.lane(i)));
+            all.set_lane(i, self.at(p.to_vec().lane(i).to_point(), n.lane(i), around.lane(i)));
         }
         all
     }
 
     /// The unit normal at a point, perturbed from the unit normal `n`.
-    fn at(&self, p: Point3, n: Vec3) -> Vec3 {
-        let p = self.place.inside(p);
+    fn at(&self, p: Point3, n: Vec3, around: Around) -> Vec3 {
+        let p = self.place.inside(p, around);
         let mut own = match &self.turn {
             None => n,
             Some(turn) => times(&turn.0, n),
@@ -112,16 +116,17 @@ impl RenderNormal {
             own = unit(own);
         }
         let moved = match &self.body {
-            Body::Height(landscape) => own - landscape.gradient(p) * (DEPTH * landscape.amount),
+            Body::Height(landscape) => own - landscape.gradient(p, around) * (DEPTH * landscape.amount),
             Body::Push(pusher, amount) => own + pusher.vector(p, own) * *amount,
             Body::Picture(picture, value, amount) => own - picture.differences(p, *value) * *amount,
-            Body::Normals(blend) => match blend.at(p) {
-                Some(Shown::One(i)) => blend.entry(i).at(p, own),
+            Body::Normals(blend) => match blend.at(p, around) {
+                Some(Shown::One(i)) => blend.entry(i).at(p, own, around),
                 Some(Shown::Two(i, k)) => {
-                    blend.entry(i - 1).at(p, own) * (1.0 - k) + blend.entry(i).at(p, own) * k
+                    blend.entry(i - 1).at(p, own, around) * (1.0 - k) + blend.entry(i).at(p, own, around) * k
                 }
-                Some(Shown::Each) => (0..blend.len())
-                    .fold(Vec3::ZERO, |sum, i| sum + blend.entry(i).at(p, own) * blend.part(Shown::Each, i)),
+                Some(Shown::Each) => (0..blend.len()).fold(Vec3::ZERO, |sum, i| {
+                    sum + blend.entry(i).at(p, own, around) * blend.part(Shown::Each, i)
+                }),
                 None => own,
             },
         };
@@ -134,13 +139,13 @@ impl RenderNormal {
 
 impl Landscape {
     /// The gradient of the heights at a point.
-    fn gradient(&self, p: Point3) -> Vec3 {
+    fn gradient(&self, p: Point3, at: Around) -> Vec3 {
         let mut around = Vec3::<F8>::splat(p.to_vec());
         let corner = |i: usize| Vec3::new(CORNERS[i][0], CORNERS[i][1], CORNERS[i][2]);
         for i in 0..4 {
             around.set_lane(i, p.to_vec() + corner(i) * self.accuracy);
         }
-        let values = self.lookup.values(around.to_point(), M8::first(4));
+        let values = self.lookup.values(around.to_point(), &at.everywhere(), M8::first(4));
         let sum = (0..4).fold(Vec3::ZERO, |sum, i| sum + corner(i) * self.bent(values.0[i]));
         // The products of the corners with themselves add up to 4/3 of the identity.
         sum * (0.75 / self.accuracy)

@@ -1,6 +1,7 @@
 //! Transformations from the world to a texture's space.
 
 use super::warp::Warp;
+use super::{Around, Around8};
 use durer_math::{Affine, F8, Point3, Vec3};
 use durer_scene::{Pattern, PointWarp};
 
@@ -13,6 +14,8 @@ pub(crate) enum Place {
     Mapped(Box<([[f64; 3]; 3], Point3)>),
     /// Maps after the inverse of a placement.
     Warped(Box<Warps>),
+    /// The texture coordinates in place of the point, seen through another place.
+    Chart(Box<Place>),
 }
 
 /// A placement and the maps after its inverse.
@@ -24,12 +27,12 @@ pub(crate) struct Warps {
 
 impl Warps {
     fn image(&self, p: Point3) -> Point3 {
-        self.warps.iter().fold(self.place.inside(p), |p, warp| warp.image(p))
+        self.warps.iter().fold(self.place.inside(p, Around::NOWHERE), |p, warp| warp.image(p))
     }
 
     #[inline(never)]
     fn images(&self, p: Point3<F8>) -> Point3<F8> {
-        self.warps.iter().fold(self.place.inside_lanes(p), |p, warp| warp.images(p))
+        self.warps.iter().fold(self.place.inside_lanes(p, &Around8::NOWHERE), |p, warp| warp.images(p))
     }
 }
 
@@ -59,9 +62,14 @@ impl Place {
         Self::Warped(Box::new(Warps { place, warps: warps.iter().map(Warp::new).collect() }))
     }
 
+    /// The same place for texture coordinates, if `on_chart` is set.
+    pub(crate) fn on_chart(self, on_chart: bool) -> Self {
+        if on_chart { Self::Chart(Box::new(self)) } else { self }
+    }
+
     /// The point of the texture's space that is placed at `p`.
     #[inline]
-    pub(crate) fn inside(&self, p: Point3) -> Point3 {
+    pub(crate) fn inside(&self, p: Point3, around: Around) -> Point3 {
         match self {
             Self::Identity => p,
             Self::Moved(v) => p - *v,
@@ -72,12 +80,13 @@ impl Place {
                 Point3::new(row(&rows[0]), row(&rows[1]), row(&rows[2]))
             }
             Self::Warped(all) => all.image(p),
+            Self::Chart(place) => place.inside(around.uv(), around),
         }
     }
 
     /// [`Place::inside`] for eight points.
     #[inline]
-    pub(crate) fn inside_lanes(&self, p: Point3<F8>) -> Point3<F8> {
+    pub(crate) fn inside_lanes(&self, p: Point3<F8>, around: &Around8) -> Point3<F8> {
         match self {
             Self::Identity => p,
             Self::Moved(v) => p - Vec3::<F8>::splat(*v),
@@ -87,6 +96,10 @@ impl Place {
                 Point3::new(row(&rows[0], v), row(&rows[1], v), row(&rows[2], v))
             }
             Self::Warped(all) => all.images(p),
+            Self::Chart(place) => {
+                let [u, v] = around.uv;
+                place.inside_lanes(Point3::new(u, v, F8::ZERO), around)
+            }
         }
     }
 }

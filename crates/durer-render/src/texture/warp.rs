@@ -2,10 +2,11 @@
 
 use core::f64::consts::TAU;
 use durer_math::{F8, Point3, Vec3, elementary};
-use durer_scene::{Around, BlackHole, PointWarp, Wrap};
+use durer_scene::{Around as WrapAround, BlackHole, PointWarp, Wrap, unfolded};
 
 use super::field::Stir;
 use super::place::Place;
+use super::{Around, Around8};
 use crate::vector::{floor, length, unit};
 
 /// A [`PointWarp`] with its constants precomputed.
@@ -17,6 +18,7 @@ pub(crate) enum Warp {
     BlackHole(BlackHole),
     Wrapped(Wrap),
     Planar(Vec3, f64),
+    Cubic,
 }
 
 impl Warp {
@@ -27,6 +29,7 @@ impl Warp {
             &PointWarp::Repeat { axis, width, offset, flip } => Self::Repeat { axis, width, offset, flip },
             PointWarp::BlackHole(hole) => Self::BlackHole(*hole),
             PointWarp::Wrapped(wrap) => Self::Wrapped(*wrap),
+            PointWarp::Cubic => Self::Cubic,
             &PointWarp::Planar { normal, distance } => Self::Planar(unit(normal), distance),
         }
     }
@@ -34,7 +37,7 @@ impl Warp {
     /// The image of a point.
     pub(crate) fn image(&self, p: Point3) -> Point3 {
         match self {
-            Self::Placed(place) => place.inside(p),
+            Self::Placed(place) => place.inside(p, Around::NOWHERE),
             Self::Stir(stir) => {
                 stir.moved(Vec3::<F8>::splat(p.to_vec()).to_point()).to_vec().lane(0).to_point()
             }
@@ -42,13 +45,18 @@ impl Warp {
             Self::BlackHole(hole) => drawn(p, hole),
             Self::Wrapped(wrap) => unrolled(p, wrap),
             Self::Planar(normal, distance) => flattened(p, *normal, *distance),
+            Self::Cubic => {
+                let [x, y, z] = p.to_array();
+                let [u, v] = unfolded([x, y, z]);
+                Point3::new(u, v, x.abs().max(y.abs()).max(z.abs()))
+            }
         }
     }
 
     /// The images of eight points.
     pub(crate) fn images(&self, p: Point3<F8>) -> Point3<F8> {
         match self {
-            Self::Placed(place) => place.inside_lanes(p),
+            Self::Placed(place) => place.inside_lanes(p, &Around8::NOWHERE),
             Self::Stir(stir) => stir.moved(p),
             _ => {
                 let mut images = p.to_vec();
@@ -117,9 +125,9 @@ pub(super) fn unrolled(p: Point3, wrap: &Wrap) -> Point3 {
     let across = (x * x + z * z).sqrt();
     let turn = angle(x, z);
     let (u, v, distance) = match wrap.around {
-        Around::Cylinder => (turn, y, across),
-        Around::Sphere => (turn, elementary::atan2(y, across) / (TAU * 0.5) + 0.5, length(p.to_vec())),
-        Around::Torus(major) => {
+        WrapAround::Cylinder => (turn, y, across),
+        WrapAround::Sphere => (turn, elementary::atan2(y, across) / (TAU * 0.5) + 0.5, length(p.to_vec())),
+        WrapAround::Torus(major) => {
             let out = across - major;
             let around = elementary::atan2(y, out) / TAU;
             (turn, around + 0.5, (out * out + y * y).sqrt())
@@ -129,7 +137,7 @@ pub(super) fn unrolled(p: Point3, wrap: &Wrap) -> Point3 {
         0.0 => (u, v),
         growth => {
             let factor = elementary::pow(distance, growth);
-            (u * factor, if matches!(wrap.around, Around::Cylinder) { v } else { v * factor })
+            (u * factor, if matches!(wrap.around, WrapAround::Cylinder) { v } else { v * factor })
         }
     };
     let flat = Vec3::new(u, v, distance);

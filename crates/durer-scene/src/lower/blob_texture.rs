@@ -26,6 +26,10 @@ pub(super) fn texture(
         textures: blob.textures.clone(),
         rest: Arc::new(rest),
     };
-    let made = Texture { body: TextureBody::Fields(Box::new(fields)), placement: Placement::IDENTITY };
+    let made = Texture {
+        body: TextureBody::Fields(Box::new(fields)),
+        placement: Placement::IDENTITY,
+        on_chart: false,
+    };
     if made.has_empty_pattern() { Err(LowerErrorKind::EmptyPattern) } else { Ok(Arc::new(made)) }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use durer_geometry::PrimitiveId;
 
 use super::LowerErrorKind;
-use crate::{Mesh, Placement, Texture};
+use crate::{Chart, Mesh, Placement, Texture};
 
 /// The index of a [`Look`] in [`Lowered::looks`](super::Lowered::looks).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,6 +29,8 @@ pub struct Look {
     pub is_clear: bool,
     /// The look for rays along the normal, if it is different.
     pub inside: Option<LookId>,
+    /// The texture coordinates, if the texture is shown by them.
+    pub chart: Option<Arc<Chart>>,
 }
 
 /// The looks of the primitives of each object.
@@ -39,12 +41,15 @@ pub(super) struct PrimitiveLooks {
     of_primitive: Vec<LookId>,
 }
 
+/// The addresses of a look's texture, frame and chart, and its other members.
+type LookKey = (*const Texture, *const Placement, Option<*const Chart>, u32, bool, Option<LookId>);
+
 /// The looks of a scene, under construction.
 #[derive(Default)]
 pub(super) struct LookTable {
     looks: Vec<Look>,
     /// Known looks, by the addresses of textures and frames. The looks keep these alive.
-    known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
+    known: HashMap<LookKey, LookId>,
     primitives: PrimitiveLooks,
     /// The range of looks of an object that consists of this mesh, with this look and these looks
     /// of its own textures.
@@ -101,8 +106,9 @@ impl LookTable {
 
     /// The index of a look. Equal looks share one.
     pub(super) fn number(&mut self, look: Look) -> LookId {
-        let Look { texture, frame, medium, double_illuminate, inside, .. } = &look;
-        let key = (Arc::as_ptr(texture), Arc::as_ptr(frame), *medium, *double_illuminate, *inside);
+        let Look { texture, frame, medium, double_illuminate, inside, chart, .. } = &look;
+        let chart = chart.as_ref().map(Arc::as_ptr);
+        let key = (Arc::as_ptr(texture), Arc::as_ptr(frame), chart, *medium, *double_illuminate, *inside);
         let looks = &mut self.looks;
         *self.known.entry(key).or_insert_with(|| {
             looks.push(look);

@@ -21,7 +21,10 @@ use durer_geometry::{BuildError, Builder, EVERYTHING, Geometry, ObjectId, Primit
 use durer_math::{Aabb, Affine, AffineError, Point3, Ray, Vec3};
 use durer_surfaces::Side;
 
-use crate::{Camera, Face, Flags, Interior, Mesh, Object, Place, Placement, Scene, Shape, Texture, mask};
+use crate::{
+    Camera, Chart, ChartKind, Face, Flags, Interior, LatheSpline, Mesh, Object, Place, Placement, Scene,
+    Shape, Texture, mask,
+};
 use camera_media::Enclosure;
 use looks::{LookTable, PrimitiveLooks};
 
@@ -393,11 +396,13 @@ impl Lowering {
         medium: u32,
         flags: Flags,
         inside: Option<LookId>,
+        chart: &Option<Arc<Chart>>,
     ) -> LookId {
         let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
         let is_clear = !texture.is_opaque();
+        let chart = chart.clone().filter(|_| texture.needs_chart());
         let double_illuminate = flags.double_illuminate;
-        self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside })
+        self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside, chart })
     }
 
     /// The texture that applies, and its frame.
@@ -444,7 +449,55 @@ impl Lowering {
     }
 }
 
+/// The name of a shape whose texture coordinates in POV-Ray are others than those here.
+fn has_other_coordinates(shape: &Shape) -> Option<&'static str> {
+    Some(match shape {
+        Shape::Lathe(LatheSpline::Linear, _) => return None,
+        Shape::Lathe(..) => "lathe with a curved spline",
+        Shape::Ovus { .. } => "ovus",
+        Shape::Patch(_) | Shape::TriangularPatch(_) => "patch",
+        Shape::Parametric(_) => "parametric",
+        _ => return None,
+    })
+}
+
 impl Lowering {
+    /// The texture coordinates of a shape, if one of its textures is shown by them.
+    fn chart(
+        &mut self,
+        object: &Object,
+        place: &Affine,
+        textures: [Option<&Painted>; 2],
+        first: PrimitiveId,
+    ) -> Option<Arc<Chart>> {
+        let own = if let Shape::Mesh(mesh) = &object.shape { &mesh.textures[..] } else { &[] };
+        let shown = textures.into_iter().flatten().map(|(texture, _)| texture);
+        if !shown.chain(own).any(|texture| texture.needs_chart()) {
+            return None;
+        }
+        let kind = match &object.shape {
+            Shape::Sphere { centre, .. } => ChartKind::Sphere(*centre),
+            Shape::Box { a, b } => {
+                let (a, b) = (a.to_array(), b.to_array());
+                let corner =
+                    |end: fn(f64, f64) -> f64| Point3::new(end(a[0], b[0]), end(a[1], b[1]), end(a[2], b[2]));
+                ChartKind::Box([corner(f64::min), corner(f64::max)])
+            }
+            Shape::Torus { major, .. } => ChartKind::Torus(*major),
+            Shape::Mesh(mesh) => ChartKind::Mesh(Arc::clone(mesh)),
+            Shape::Sor(points) => ChartKind::Revolution(Arc::clone(points)),
+            Shape::Lathe(LatheSpline::Linear, points) => ChartKind::Lathe(Arc::clone(points)),
+            _ => ChartKind::Flat,
+        };
+        if let Some(name) = has_other_coordinates(&object.shape) {
+            let text = format!(
+                "uv_mapping of a {name} is not supported yet: its texture is shown by x and y of the world"
+            );
+            self.warnings.push((object.place, text));
+        }
+        Some(Arc::new(Chart { kind, placement: Placement::new(*place), first: first.0 }))
+    }
+
     /// Numbers the primitives of a shape, each with its look. Returns the first number.
     fn looks_of(
         &mut self,
@@ -461,18 +514,19 @@ impl Lowering {
             }
             _ => texture,
         };
+        let primitive = self.table.next()?;
+        let chart = self.chart(object, place, [Some(&texture), inside.as_ref()], primitive);
         let look = match inside.clone() {
-            None => self.look(texture, medium, flags, None),
+            None => self.look(texture, medium, flags, None, &chart),
             Some(inside) => {
                 // The corners of a flat triangle are in the opposite order (a fact of the scene
                 // language).
                 let (front, back) =
                     if goes_round_backward(object) { (inside, texture) } else { (texture, inside) };
-                let back = self.look(back, medium, flags, None);
-                self.look(front, medium, flags, Some(back))
+                let back = self.look(back, medium, flags, None, &chart);
+                self.look(front, medium, flags, Some(back), &chart)
             }
         };
-        let primitive = self.table.next()?;
         let Shape::Mesh(mesh) = &object.shape else {
             self.table.push(look);
             return Ok(primitive);
@@ -480,7 +534,7 @@ impl Lowering {
         let own_frame = Arc::new(Placement::new(*place));
         let mut own = Vec::with_capacity(mesh.textures.len());
         for texture in &mesh.textures {
-            own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None));
+            own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None, &chart));
         }
         let is_shared = object.clips.is_empty() && self.shared.whole(object).is_some();
         if is_shared && core::ptr::eq(object, self.top) && self.table.same_as_before(mesh, look, own.clone())

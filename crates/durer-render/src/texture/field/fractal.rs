@@ -53,13 +53,12 @@ fn next(map: FractalMap, z: Complex, c: Complex) -> Complex {
 
 /// The value at a point.
 pub(super) fn value(set: &Fractal, p: Point3) -> f64 {
-    let start = match (set.map, set.constant) {
-        // Magnets start from 0.
-        (FractalMap::Magnet1 | FractalMap::Magnet2, None) => (0.0, 0.0),
-        _ => (p.x, p.y),
+    let (mut z, mut least) = match (set.map, set.constant) {
+        // Magnets start from 0, which does not count as the least.
+        (FractalMap::Magnet1 | FractalMap::Magnet2, None) => ((0.0, 0.0), f64::INFINITY),
+        _ => ((p.x, p.y), square_of((p.x, p.y))),
     };
     let c = set.constant.unwrap_or((p.x, p.y));
-    let (mut z, mut least) = (start, square_of(start));
     for k in 0..set.iterations {
         z = next(set.map, z, c);
         let square = square_of(z);
@@ -91,5 +90,23 @@ fn of_last(kind: u8, (re, im): Complex) -> f64 {
         5 => im * im,
         6 => elementary::hypot(re, im),
         _ => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of POV-Ray.
+    #[test]
+    fn the_start_of_magnets_is_not_their_least() {
+        let value = |map, constant, x, y| {
+            let (exterior, interior) = ((1, 1.0), (1, 1.0));
+            value(&Fractal { map, constant, iterations: 5, exterior, interior }, Point3::new(x, y, 0.0))
+        };
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+        close(value(FractalMap::Magnet1, None, 0.0, 0.0), 0.25);
+        close(value(FractalMap::Magnet2, None, 0.01, 0.02), 0.440146819496);
+        close(value(FractalMap::Magnet2, Some((0.5, 0.2)), 0.01, 0.02), 0.022360679775);
     }
 }

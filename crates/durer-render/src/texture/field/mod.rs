@@ -10,6 +10,8 @@ mod inside;
 mod noise;
 mod push;
 mod ripples;
+mod slope;
+mod tiling;
 
 pub(super) use crackle::cell_number;
 pub(crate) use noise::Stir;
@@ -18,12 +20,12 @@ pub(super) use push::Pusher;
 use std::sync::Arc;
 
 use super::cells::Cutter;
-use super::{Grains, Picture, RenderPigment};
+use super::{Around, Around8, Grains, Picture, RenderPigment, Sampled};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
 use durer_formula::Tape;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
-use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Ramp};
+use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Ramp, Slope};
 use ripples::Centres;
 
 /// A [`Ramp`] with its constants precomputed.
@@ -48,6 +50,10 @@ pub(crate) enum Field {
     Crackle(Points),
     Fractal(Fractal),
     Formula(Box<Tape>),
+    Sampled(Box<Sampled>),
+    Slope(Slope),
+    Aoi,
+    Tiling(u8),
     Pigment(Box<RenderPigment>),
     Picture(Picture, ImageValue),
     Kind(Cutter),
@@ -86,6 +92,10 @@ impl Field {
             Ramp::Density(grid, between) => Self::Density(grid.clone(), *between),
             Ramp::Kind(cells) => Self::Kind(Cutter::new(*cells)),
             Ramp::Formula(formula) => Self::Formula(Box::new(Tape::new(formula))),
+            Ramp::Slope(slope) => Self::Slope(*slope),
+            Ramp::Aoi => Self::Aoi,
+            Ramp::Tiling(number) => Self::Tiling(*number),
+            Ramp::Sampled(function) => Self::Sampled(Box::new(Sampled::new(function)?)),
             Ramp::Pigment(pigment) => {
                 Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
             }
@@ -94,7 +104,7 @@ impl Field {
 
     /// The value at a point.
     #[inline]
-    pub(super) fn value(&self, p: Point3) -> f64 {
+    pub(super) fn value(&self, p: Point3, around: Around) -> f64 {
         match self {
             Self::Gradient(axis) => {
                 let along = dot(*axis, p.to_vec());
@@ -113,14 +123,19 @@ impl Field {
             Self::Ripples(centres) => centres.value(p),
             Self::Crackle(points) => points.value(p),
             Self::Fractal(set) => fractal::value(set, p),
-            Self::Pigment(pigment) => pigment.at(p).rgb.luminance(),
+            Self::Pigment(pigment) => pigment.at(p, around).rgb.luminance(),
             Self::Picture(picture, value) => picture.value(p, *value),
             Self::Kind(cutter) => cutter.kind(p) as f64,
+            Self::Sampled(function) => function.value(&p.to_array()),
+            Self::Slope(slope) => slope::value(slope, p, around),
+            Self::Aoi => slope::incidence(around),
+            &Self::Tiling(number) => tiling::value(number, p),
             Self::Inside(volume) => volume.value(p),
             Self::Density(grid, between) => grid.value(p.to_array(), *between),
             Self::Marble(None) => p.x,
             _ => {
-                let lanes = self.values(Vec3::<F8>::splat(p.to_vec()).to_point(), M8::first(1));
+                let p = Vec3::<F8>::splat(p.to_vec()).to_point();
+                let lanes = self.values(p, &Around8::NOWHERE, M8::first(1));
                 lanes.0[0]
             }
         }
@@ -128,17 +143,17 @@ impl Field {
 
     /// The values at some points.
     #[inline(always)]
-    pub(super) fn values(&self, p: Point3<F8>, live: M8) -> F8 {
+    pub(super) fn values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
         match self {
             Self::Gradient(axis) => {
                 let along = dot(Vec3::<F8>::splat(*axis), p.to_vec());
                 (F8::ONE).lt(along).select(along - floor_lanes(along), along)
             }
-            _ => self.other_values(p, live),
+            _ => self.other_values(p, around, live),
         }
     }
 
-    fn other_values(&self, p: Point3<F8>, live: M8) -> F8 {
+    fn other_values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
         match self {
             Self::Noise(grain, grains) => noise::values(grain, grains, p),
             Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
@@ -146,10 +161,10 @@ impl Field {
             Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),
             Self::Formula(program) => program.values(&[p.x, p.y, p.z]),
             Self::Pigment(pigment) => {
-                let colours = pigment.colours(p, live);
+                let colours = pigment.colours(p, around, live);
                 by_lane(p, live, |i, _| colours.rgb.lane(i).luminance())
             }
-            _ => by_lane(p, live, |_, p| self.value(p)),
+            _ => by_lane(p, live, |i, p| self.value(p, around.lane(i))),
         }
     }
 }
