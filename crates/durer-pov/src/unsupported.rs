@@ -15,10 +15,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Altitude
             | AlwaysSample
             | Aoi
-            | ArcAngle
-            | AreaIllumination
             | Autostop
-            | Bokeh
             | Brightness
             | Collect
             | Composite
@@ -29,15 +26,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ErrorBound
             | ExpandThresholds
             | Extinction
-            | FalloffAngle
             | Gather
-            | GlobalLights
             | GrayThreshold
             | Iff
             | Importance
             | InteriorTexture
             | Intervals
-            | LightGroup
             | LoadFile
             | LowErrorFactor
             | MaxSample
@@ -47,7 +41,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NearestCount
             | NumberOfSides
             | NumberOfTiles
-            | Omnimax
             | PassThrough
             | Pattern
             | Pavement

@@ -46,7 +46,7 @@ pub struct PixelTracer<'w> {
 impl<'w> PixelTracer<'w> {
     /// A tracer for pictures of `size` (columns and rows). It stops where `stop` is cancelled.
     pub fn new(world: &'w World, size: (u32, u32), stop: Progress<'w>) -> Result<Self, RenderError> {
-        let camera = *world.camera().ok_or(RenderError::NoCamera)?;
+        let camera = world.camera().ok_or(RenderError::NoCamera)?.clone();
         Ok(Self { tracer: Whitted::new(world).stopped_by(&stop), camera, size, places: Vec::new() })
     }
 

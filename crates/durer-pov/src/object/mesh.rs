@@ -19,6 +19,8 @@ pub(crate) struct Face {
     pub(crate) vertices: [u32; 3],
     pub(crate) normals: Option<[u32; 3]>,
     pub(crate) texture: Option<u32>,
+    /// The numbers of the texture coordinates at its corners.
+    pub(crate) uv: Option<[u32; 3]>,
 }
 
 /// Triangles over shared corners.
@@ -27,6 +29,8 @@ pub(crate) struct Mesh {
     pub(crate) vertices: Vec<[f64; 3]>,
     pub(crate) normals: Vec<[f64; 3]>,
     pub(crate) faces: Vec<Face>,
+    /// The texture coordinates that faces may refer to.
+    pub(crate) uv: Vec<[f64; 2]>,
     pub(crate) textures: Vec<Rc<Texture>>,
     pub(crate) inside_vector: Option<[f64; 3]>,
     charge: Charge,
@@ -38,6 +42,7 @@ impl Mesh {
             vertices: Vec::new(),
             normals: Vec::new(),
             faces: Vec::new(),
+            uv: Vec::new(),
             textures: Vec::new(),
             inside_vector: None,
             charge: Charge::new(size_of::<Self>()),
@@ -45,7 +50,9 @@ impl Mesh {
     }
 
     fn bytes(&self) -> usize {
-        (self.vertices.capacity() + self.normals.capacity()) * 24 + self.faces.capacity() * size_of::<Face>()
+        (self.vertices.capacity() + self.normals.capacity()) * 24
+            + self.uv.capacity() * 16
+            + self.faces.capacity() * size_of::<Face>()
     }
 }
 
@@ -54,11 +61,11 @@ impl Mesh {
 struct Shared(HashMap<[u64; 3], u32>);
 
 impl Shared {
-    fn index(&mut self, v: [f64; 3], list: &mut Vec<[f64; 3]>) -> u32 {
+    fn index<T>(&mut self, v: [f64; 3], list: &mut Vec<T>, item: T) -> u32 {
         // Minus zero is zero.
         let key = v.map(|part| (part + 0.0).to_bits());
         *self.0.entry(key).or_insert_with(|| {
-            list.push(v);
+            list.push(item);
             (list.len() - 1) as u32
         })
     }
@@ -74,6 +81,7 @@ impl Parser<'_> {
     pub(super) fn mesh(&mut self) -> Result<Shape> {
         let mut mesh = Mesh::new();
         let (mut corners, mut normals) = (Shared::default(), Shared::default());
+        let mut coordinates = Shared::default();
         loop {
             let smooth = match self.peek_word()? {
                 Some(Keyword::Triangle) => false,
@@ -83,19 +91,26 @@ impl Parser<'_> {
             self.next()?;
             let place = self.here();
             self.expect(Mark::BraceOpen)?;
-            let mut face = Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None };
+            let mut face =
+                Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None, uv: None };
             for i in 0..3 {
-                face.vertices[i] = corners.index(self.corner()?, &mut mesh.vertices);
+                face.vertices[i] = {
+                    let corner = self.corner()?;
+                    corners.index(corner, &mut mesh.vertices, corner)
+                };
                 if let Some(at) = &mut face.normals {
                     let normal = self.normal("a normal of the triangle")?;
-                    at[i] = normals.index(normal, &mut mesh.normals);
+                    at[i] = normals.index(normal, &mut mesh.normals, normal);
                 }
             }
             if self.take_word(Keyword::UvVectors)? {
-                for _ in 0..3 {
-                    self.vector2()?;
+                let mut at = [0; 3];
+                for corner in &mut at {
+                    let uv = self.vector2()?;
+                    *corner = coordinates.index([uv[0], uv[1], 0.0], &mut mesh.uv, uv);
                     self.skip_comma()?;
                 }
+                face.uv = Some(at);
             }
             if self.take_word(Keyword::Texture)? {
                 let texture = self.nested(Self::texture_block)?;
@@ -107,7 +122,8 @@ impl Parser<'_> {
             self.expect(Mark::BraceClose)?;
             mesh.faces.push(face);
             if mesh.faces.len().is_multiple_of(OFTEN) {
-                let index = (corners.0.capacity() + normals.0.capacity()) * SHARED_ENTRY;
+                let index =
+                    (corners.0.capacity() + normals.0.capacity() + coordinates.0.capacity()) * SHARED_ENTRY;
                 self.check_memory(mesh.bytes() + index, place)?;
             }
         }
@@ -129,12 +145,12 @@ impl Parser<'_> {
                     self.next()?;
                     mesh.normals = self.counted(24, Self::corner)?;
                 }
-                // Without uv_mapping they say nothing.
                 Keyword::UvVectors => {
                     self.next()?;
-                    self.counted(0, |r| {
-                        r.vector2()?;
-                        r.skip_comma()
+                    mesh.uv = self.counted(16, |r| {
+                        let uv = r.vector2()?;
+                        r.skip_comma()?;
+                        Ok(uv)
                     })?;
                 }
                 Keyword::TextureList => {
@@ -171,7 +187,11 @@ impl Parser<'_> {
                 }
                 Keyword::UvIndices => {
                     self.next()?;
-                    self.counted(0, |r| r.indices(usize::MAX, "uv").map(drop))?;
+                    let count = mesh.uv.len();
+                    let lists = self.counted(12, |r| r.indices(count, "uv"))?;
+                    for (face, list) in mesh.faces.iter_mut().zip(lists) {
+                        face.uv = Some(list);
+                    }
                 }
                 _ => break,
             }
@@ -183,6 +203,11 @@ impl Parser<'_> {
         if mesh.normals.len() == mesh.vertices.len() {
             for face in &mut mesh.faces {
                 face.normals = face.normals.or(Some(face.vertices));
+            }
+        }
+        if mesh.uv.len() == mesh.vertices.len() {
+            for face in &mut mesh.faces {
+                face.uv = face.uv.or(Some(face.vertices));
             }
         }
         // A normal without length makes its face flat.
@@ -251,7 +276,7 @@ impl Parser<'_> {
                 }
                 texture = Some(first);
             }
-            Ok(Face { vertices, normals: None, texture })
+            Ok(Face { vertices, normals: None, texture, uv: None })
         })?;
         Ok(())
     }
@@ -267,6 +292,7 @@ impl Parser<'_> {
         mesh.vertices.shrink_to_fit();
         mesh.normals.shrink_to_fit();
         mesh.faces.shrink_to_fit();
+        mesh.uv.shrink_to_fit();
         mesh.charge.resize(mesh.bytes());
         self.check_memory(0, place)?;
         Ok(Shape::Mesh(Rc::new(mesh)))

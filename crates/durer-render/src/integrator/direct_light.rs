@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::texture::Stir;
 use crate::vector::dot;
-use crate::world::World;
+use crate::world::{Look, World};
 use core::f64::consts::TAU;
 use durer_math::{F8, Isa, M8, Point3, elementary};
 use durer_scene::Irid;
@@ -42,42 +42,39 @@ struct Falling {
 }
 
 impl<'w> Lamps<'w> {
-    /// Adds the light of all lights, scattered by the layers, to the spots. If `double` is set,
-    /// light from behind counts like light from the front. The rays came in `media`;
-    /// `node` is their number in the record.
+    /// Adds the light of all lights that light surfaces with this look, scattered by the layers, to
+    /// the spots. The rays came in `media`; `node` is their number in the record.
     pub(super) fn light(
         &mut self,
         (world, isa): (&'w World, Isa),
-        (coats, double): (&Coats<'_>, bool),
+        (coats, look): (&Coats<'_>, &Look),
         (media, node): (&[u32], u32),
         spots: &mut [Spot],
         (stop, record): (&Progress<'_>, &mut Option<Box<Record>>),
         counts: &mut RayCounts,
     ) {
+        let double = look.double_illuminate;
         let behind = double || coats.finishes.iter().any(|f| f.lit_from_behind());
         for (number, lamp) in world.lamps.iter().enumerate() {
             if stop.is_cancelled() {
                 return;
             }
+            if !world.lights(number, look) {
+                continue;
+            }
+            if let Some(area) = lamp.area.as_ref().filter(|_| lamp.illuminates) {
+                let how = ((world, isa), (coats, (double, behind)), media);
+                self.light_from_all(how, (lamp, area), spots, stop, counts);
+                if let Some(record) = record {
+                    record.light(node, number, spots, &self.unblocked, self.shadows.light());
+                }
+                self.collect(isa, spots);
+                continue;
+            }
             // The steps are small, and each leaves its results in memory: in large steps the
             // compiler mixes the lanes.
-            self.fall(isa, lamp, (double, behind), spots);
-            for (k, finish) in coats.finishes.iter().enumerate() {
-                if let Some(views) = coats.bent(k) {
-                    self.turn(views, (double, behind));
-                }
-                let before: Vec<Rgb8> = match finish.irid {
-                    Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
-                    None => Vec::new(),
-                };
-                self.scatter(isa, finish, coats.lit(k));
-                if finish.shines() && !lamp.shadowless {
-                    self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
-                }
-                if let Some(irid) = &finish.irid {
-                    self.iridesce((irid, finish.stirred.as_deref()), &before, coats.bent(k), spots);
-                }
-            }
+            self.fall(isa, lamp, None, (double, behind), spots);
+            self.shine(isa, lamp, (coats, (double, behind)), spots);
             self.aim(isa, lamp, spots);
             if record.is_some() {
                 self.unblocked.clear();
@@ -85,21 +82,90 @@ impl<'w> Lamps<'w> {
                 self.unblocked.extend(places.map(|to| (*to.light, *to.target)));
             }
             match &lamp.area {
-                None => self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts),
-                Some(area) => self.soften((world, isa), area, media, spots, stop, counts),
+                None => {
+                    if let Some(through) = &lamp.through {
+                        self.shadows.project(&through.geometry, lamp.shadowless);
+                    }
+                    self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts);
+                }
+                Some(area) => self.soften((world, isa), (lamp, area), media, spots, stop, counts),
             }
             if let Some(record) = record {
                 record.light(node, number, spots, &self.unblocked, self.shadows.light());
             }
-            isa.run_in_lanes(
-                #[inline(always)]
-                || {
-                    for (spot, light) in spots.iter_mut().zip(self.shadows.light()) {
-                        spot.sum += *light;
-                    }
-                },
-            );
+            self.collect(isa, spots);
         }
+    }
+
+    /// Computes what all layers scatter of a light that has fallen on spots, without its colour.
+    fn shine(
+        &mut self,
+        isa: Isa,
+        lamp: &RenderLight,
+        (coats, (double, behind)): (&Coats<'_>, (bool, bool)),
+        spots: &[Spot],
+    ) {
+        for (k, finish) in coats.finishes.iter().enumerate() {
+            if let Some(views) = coats.bent(k) {
+                self.turn(views, (double, behind));
+            }
+            let before: Vec<Rgb8> = match finish.irid {
+                Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
+                None => Vec::new(),
+            };
+            self.scatter(isa, finish, coats.lit(k));
+            if finish.shines() && !lamp.shadowless {
+                self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
+            }
+            if let Some(irid) = &finish.irid {
+                self.iridesce((irid, finish.stirred.as_deref()), &before, coats.bent(k), spots);
+            }
+        }
+    }
+
+    /// Computes the light of all points of an area light, each with its shadows.
+    fn light_from_all(
+        &mut self,
+        ((world, isa), how, media): ((&'w World, Isa), (&Coats<'_>, (bool, bool)), &[u32]),
+        (lamp, area): (&RenderLight, &Area),
+        spots: &mut [Spot],
+        stop: &Progress<'_>,
+        counts: &mut RayCounts,
+    ) {
+        let mut sums = vec![(Rgb8::BLACK, Rgb8::BLACK); spots.len()];
+        for number in 0..area.len() {
+            self.fall(isa, lamp, Some((area, number)), how.1, spots);
+            self.shine(isa, lamp, how, spots);
+            self.aim(isa, lamp, spots);
+            let weight = F8::splat(area.weights(number)[0]);
+            for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
+                sum.0 += *light * weight;
+            }
+            if let Some(through) = &lamp.through {
+                self.shadows.project(&through.geometry, lamp.shadowless);
+            }
+            self.shadows.cast((world, isa), None, media, stop, counts);
+            for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
+                sum.1 += *light * weight;
+            }
+        }
+        self.unblocked.clear();
+        for (to, (unblocked, light)) in self.shadows.places(spots.len()).zip(sums) {
+            self.unblocked.push((unblocked, *to.target));
+            *to.light = light;
+        }
+    }
+
+    /// Adds the light to the spots.
+    fn collect(&self, isa: Isa, spots: &mut [Spot]) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (spot, light) in spots.iter_mut().zip(self.shadows.light()) {
+                    spot.sum += *light;
+                }
+            },
+        );
     }
 
     /// Reduces the light by the shadows of all points of an area light. Where those looked at first
@@ -107,7 +173,7 @@ impl<'w> Lamps<'w> {
     fn soften(
         &mut self,
         (world, isa): (&'w World, Isa),
-        area: &Area,
+        (lamp, area): (&RenderLight, &Area),
         media: &[u32],
         spots: &[Spot],
         stop: &Progress<'_>,
@@ -144,6 +210,9 @@ impl<'w> Lamps<'w> {
                 (rays.origin, rays.direction) = (origin, *target - origin);
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
             }
+            if let Some(through) = &lamp.through {
+                self.shadows.project(&through.geometry, false);
+            }
             self.shadows.cast((world, isa), None, media, stop, counts);
             for (i, light) in self.shadows.light().iter().enumerate() {
                 let light = light.kept(needed[i]);
@@ -163,8 +232,15 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Computes how a light falls on spots, before anything is scattered.
-    fn fall(&mut self, isa: Isa, lamp: &RenderLight, (double, behind): (bool, bool), spots: &[Spot]) {
+    /// Computes how a light, or one point of its area, falls on spots, before anything is scattered.
+    fn fall(
+        &mut self,
+        isa: Isa,
+        lamp: &RenderLight,
+        point: Option<(&Area, usize)>,
+        (double, behind): (bool, bool),
+        spots: &[Spot],
+    ) {
         let falling = &mut self.falling;
         falling.clear();
         let places = self.shadows.places(spots.len());
@@ -172,8 +248,11 @@ impl<'w> Lamps<'w> {
             #[inline(always)]
             || {
                 for (spot, to) in spots.iter().zip(places) {
-                    let Beamed { lit, to_light, strength, target, blockable } =
-                        lamp.at(spot.hits.p, spot.live);
+                    let beamed = match point {
+                        None => lamp.at(spot.hits.p, spot.live),
+                        Some((area, number)) => lamp.at_from_point(area, number, spot.hits.p, spot.live),
+                    };
+                    let Beamed { lit, to_light, strength, target, blockable } = beamed;
                     let cosine = dot(to_light, spot.view.normal);
                     let lit = lit & !strength.equals(F8::ZERO);
                     let live = if behind { lit } else { lit & !cosine.le(F8::ZERO) };

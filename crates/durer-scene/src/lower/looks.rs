@@ -25,6 +25,8 @@ pub struct Look {
     pub medium: u32,
     /// Whether light from behind counts too.
     pub double_illuminate: bool,
+    /// The light group of the surface.
+    pub light_group: Option<u32>,
     /// Whether some light may pass.
     pub is_clear: bool,
     /// The look for rays along the normal, if it is different.
@@ -44,7 +46,7 @@ pub(super) struct PrimitiveLooks {
 pub(super) struct LookTable {
     looks: Vec<Look>,
     /// Known looks, by the addresses of textures and frames. The looks keep these alive.
-    known: HashMap<(*const Texture, *const Placement, u32, bool, Option<LookId>), LookId>,
+    known: HashMap<(*const Texture, *const Placement, u32, bool, Option<u32>, Option<LookId>), LookId>,
     primitives: PrimitiveLooks,
     /// The range of looks of an object that consists of this mesh, with this look and these looks
     /// of its own textures.
@@ -101,8 +103,9 @@ impl LookTable {
 
     /// The index of a look. Equal looks share one.
     pub(super) fn number(&mut self, look: Look) -> LookId {
-        let Look { texture, frame, medium, double_illuminate, inside, .. } = &look;
-        let key = (Arc::as_ptr(texture), Arc::as_ptr(frame), *medium, *double_illuminate, *inside);
+        let Look { texture, frame, medium, double_illuminate, light_group, inside, .. } = &look;
+        let key =
+            (Arc::as_ptr(texture), Arc::as_ptr(frame), *medium, *double_illuminate, *light_group, *inside);
         let looks = &mut self.looks;
         *self.known.entry(key).or_insert_with(|| {
             looks.push(look);

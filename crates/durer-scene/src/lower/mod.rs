@@ -374,8 +374,8 @@ impl Lowering {
     ) -> LookId {
         let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
         let is_clear = !texture.is_opaque();
-        let double_illuminate = flags.double_illuminate;
-        self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside })
+        let Flags { double_illuminate, light_group, .. } = flags;
+        self.table.number(Look { texture, frame, medium, double_illuminate, light_group, is_clear, inside })
     }
 
     /// The texture that applies, and its frame.
