@@ -30,6 +30,6 @@ camera {
 }
 sky_sphere { pigment { checker rgb <0.4, 0.6, 0.9> rgb 0.9 scale 0.3 } }
 light_source { <2, 9, -4> rgb 1 }
-plane { y, -2 pigment { checker rgb 0.8 rgb 0.3 } }
+plane { y, -2 pigment { checker rgb 0.8 rgb 0.3 scale 3 } }
 sphere { <0.5, 0.5, 4>, 1 pigment { rgb <1, 0.6, 0.3> } }
 box { <-2, -2, 5>, <-1, 1, 6> pigment { rgb <0.3, 0.8, 0.5> } }

@@ -142,10 +142,10 @@ impl Camera {
         })
     }
 
-    /// The distance of the plane through a point and across the direction of view.
+    /// The distance of the plane of focus for a focal point: that of the point itself (a fact of the
+    /// scene language).
     fn distance_to(&self, target: [f64; 3]) -> f64 {
-        let way = std::array::from_fn(|i| target[i] - self.location[i]);
-        dot(way, self.direction) / length(self.direction)
+        length(std::array::from_fn(|i| target[i] - self.location[i]))
     }
 
     fn transform(&mut self, by: &Matrix) {

@@ -194,13 +194,16 @@ impl Parser<'_> {
         let Some(global_lights) = object.habits.light_group else {
             return self.emitted_in_group(object, lights);
         };
-        let parent = self.scene.group;
+        let around = self.scene.group;
+        // The outermost group decides on global lights (a fact of the scene language).
+        let outer = around.and_then(|group| self.scene.groups.get(group as usize));
+        let global_lights = outer.map_or(global_lights, |outer| outer.global_lights);
         limits::charge_for_good(size_of::<scene::LightGroup>());
         let number = self.scene.groups.len() as u32;
-        self.scene.groups.push(scene::LightGroup { parent, global_lights });
+        self.scene.groups.push(scene::LightGroup { global_lights });
         self.scene.group = Some(number);
         let made = self.emitted_in_group(object, lights);
-        self.scene.group = parent;
+        self.scene.group = around;
         Ok(made?.map(|mut made| {
             made.flags.light_group = Some(number);
             made

@@ -33,11 +33,10 @@ pub struct Light {
     pub group: Option<u32>,
 }
 
-/// Lights that light some objects only: those of the group.
+/// Lights that light some objects only: those of the group. Other lights do not light its objects,
+/// unless it has global lights, nor do those of a group around it or within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightGroup {
-    /// The number of the group around it, whose lights also light its objects.
-    pub parent: Option<u32>,
     /// Whether lights without a group light its objects too.
     pub global_lights: bool,
 }
@@ -45,19 +44,8 @@ pub struct LightGroup {
 impl LightGroup {
     /// Whether a light with this group lights an object with that one.
     pub fn lights(groups: &[Self], light: Option<u32>, object: Option<u32>) -> bool {
-        let own = |group: u32| groups.get(group as usize);
-        let Some(light) = light else {
-            return object.and_then(own).is_none_or(|group| group.global_lights);
-        };
-        let mut around = object;
-        // A group's parent comes before it, so this ends.
-        while let Some(group) = around {
-            if group == light {
-                return true;
-            }
-            around = own(group).and_then(|group| group.parent).filter(|&parent| parent < group);
-        }
-        false
+        let own = object.and_then(|group| groups.get(group as usize));
+        light == object || light.is_none() && own.is_none_or(|group| group.global_lights)
     }
 }
 

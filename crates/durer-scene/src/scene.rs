@@ -21,7 +21,7 @@ pub struct Scene {
     pub fogs: Vec<Fog>,
     /// All rainbows. They are seen before what lies behind, and through fog.
     pub rainbows: Vec<Rainbow>,
-    /// The light groups, to which lights and objects refer by their numbers. Groups within a group come after it.
+    /// The light groups, to which lights and objects refer by their numbers.
     pub light_groups: Vec<LightGroup>,
     /// The scene's own settings.
     pub settings: Settings,

@@ -3,18 +3,15 @@
 use super::layers::{Coats, Lit};
 use super::record::Record;
 use super::shading_point::Spot;
-use super::shadow::Shadows;
+use super::shadow::{Shade, Shadows};
 use crate::lanes::Rgb8;
 use crate::light::{Area, Beamed, RenderLight};
 use crate::material::{Finish, Incidence, View};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
-use crate::texture::Stir;
 use crate::vector::dot;
 use crate::world::{Look, World};
-use core::f64::consts::TAU;
-use durer_math::{F8, Isa, M8, Point3, elementary};
-use durer_scene::Irid;
+use durer_math::{F8, Isa, M8, Point3};
 
 /// Computes the direct light on shading points.
 #[derive(Default)]
@@ -117,13 +114,14 @@ impl<'w> Lamps<'w> {
             if finish.shines() && !lamp.shadowless {
                 self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
             }
-            if let Some(irid) = &finish.irid {
-                self.iridesce((irid, finish.stirred.as_deref()), &before, coats.bent(k), spots);
+            if finish.irid.is_some() {
+                self.iridesce(finish, &before, coats.bent(k), spots);
             }
         }
     }
 
-    /// Computes the light of all points of an area light, each with its shadows.
+    /// Computes the light of an area light that lights surfaces from all its points: the mean of
+    /// their light, in the shadows of any area light (a fact of the scene language).
     fn light_from_all(
         &mut self,
         ((world, isa), how, media): ((&'w World, Isa), (&Coats<'_>, (bool, bool)), &[u32]),
@@ -132,28 +130,25 @@ impl<'w> Lamps<'w> {
         stop: &Progress<'_>,
         counts: &mut RayCounts,
     ) {
-        let mut sums = vec![(Rgb8::BLACK, Rgb8::BLACK); spots.len()];
+        let mut sums = vec![Rgb8::BLACK; spots.len()];
+        let weight = F8::splat(1.0 / area.len() as f64);
         for number in 0..area.len() {
             self.fall(isa, lamp, Some((area, number)), how.1, spots);
             self.shine(isa, lamp, how, spots);
             self.aim(isa, lamp, spots);
-            let weight = F8::splat(area.weights(number)[0]);
             for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
-                sum.0 += *light * weight;
-            }
-            if let Some(through) = &lamp.through {
-                self.shadows.project(&through.geometry, lamp.shadowless);
-            }
-            self.shadows.cast((world, isa), None, media, stop, counts);
-            for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
-                sum.1 += *light * weight;
+                *sum += *light * weight;
             }
         }
+        self.fall(isa, lamp, None, how.1, spots);
         self.unblocked.clear();
-        for (to, (unblocked, light)) in self.shadows.places(spots.len()).zip(sums) {
-            self.unblocked.push((unblocked, *to.target));
+        let places = self.shadows.places(spots.len());
+        for (((to, light), falling), spot) in places.zip(sums).zip(&self.falling).zip(&*spots) {
+            self.unblocked.push((light, *to.target));
             *to.light = light;
+            send(to, spot, !light.is_black() & spot.live & falling.blockable);
         }
+        self.soften((world, isa), (lamp, area), media, spots, stop, counts);
     }
 
     /// Adds the light to the spots.
@@ -316,32 +311,16 @@ impl<'w> Lamps<'w> {
     }
 
     /// Multiplies what a layer added to the light by the interference of a thin film.
-    fn iridesce(
-        &mut self,
-        (irid, stirred): (&Irid, Option<&Stir>),
-        before: &[Rgb8],
-        bent: Option<Bent<'_>>,
-        spots: &[Spot],
-    ) {
+    fn iridesce(&mut self, finish: &Finish, before: &[Rgb8], bent: Option<Bent<'_>>, spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         for (i, ((Falling { at, .. }, to), before)) in falling.iter().zip(places).zip(before).enumerate() {
             let view = bent.map_or(&spots[i].view, |(views, _)| &views[i]);
             let mut light = *to.light;
-            let thickness = match stirred {
-                None => F8::splat(irid.thickness),
-                Some(stir) => {
-                    let varied = stir.scalar(spots[i].hits.p) * 2.0 - F8::ONE;
-                    (varied * irid.turbulence + F8::ONE) * irid.thickness
-                }
-            };
+            let way = at.cosine.abs() + view.cosine.abs();
+            let factor = finish.interference(spots[i].hits.p, way, at.live);
             for lane in at.live.lanes() {
-                let way = at.cosine.0[lane].abs() + view.cosine.0[lane].abs();
-                let factor = |wavelength: f64| {
-                    let turns = thickness.0[lane] * way / wavelength;
-                    1.0 + irid.amount * elementary::cos(TAU * turns)
-                };
                 let (old, new) = (before.lane(lane), light.lane(lane));
-                light.set_lane(lane, old + (new + old * -1.0) * irid.wavelength.map(factor));
+                light.set_lane(lane, old + (new + old * -1.0) * factor.lane(lane));
             }
             *to.light = light;
         }
@@ -359,15 +338,21 @@ impl<'w> Lamps<'w> {
                 {
                     let needed = *lit & !to.light.is_black();
                     *to.light = (Rgb8::splat(lamp.colour) * *strength * *to.light).kept(needed);
-                    let rays = to.rays;
-                    rays.live = needed & *blockable;
-                    if rays.live.any() {
-                        let (origin, back) = spot.hits.start_towards(*to.target - spot.hits.p);
-                        (rays.origin, rays.direction) = (origin, *to.target - origin);
-                        (rays.t_max, rays.source) = (F8::ONE, spot.hits.sources(back));
-                    }
+                    send(to, spot, needed & *blockable);
                 }
             },
         );
+    }
+}
+
+/// Aims shadow rays from a spot at the target.
+#[inline(always)]
+fn send(to: Shade<'_>, spot: &Spot, live: M8) {
+    let rays = to.rays;
+    rays.live = live;
+    if live.any() {
+        let (origin, back) = spot.hits.start_towards(*to.target - spot.hits.p);
+        (rays.origin, rays.direction) = (origin, *to.target - origin);
+        (rays.t_max, rays.source) = (F8::ONE, spot.hits.sources(back));
     }
 }
