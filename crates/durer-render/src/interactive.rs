@@ -189,6 +189,6 @@ mod tests {
         let settings = RenderSettings { width: 20, height: 15, ..RenderSettings::default() };
         let picture = |world: &World| render(world, &settings, &Progress::none()).unwrap().film;
         assert_eq!(picture(&world), picture(&World::new(&scene).unwrap()));
-        assert!(world.set_camera(&Camera { right: Vec3::ZERO, ..camera }).is_err());
+        assert!(world.set_camera(&Camera { right: Vec3::ZERO, ..camera.clone() }).is_err());
     }
 }
