@@ -185,10 +185,10 @@ mod tests {
         // Inside the clear ball.
         let camera = Camera { location: Point3::new(1.1, 0.1, 5.2), ..Camera::default() };
         world.set_camera(&camera).unwrap();
-        scene.camera = Some(camera);
+        scene.camera = Some(camera.clone());
         let settings = RenderSettings { width: 20, height: 15, ..RenderSettings::default() };
         let picture = |world: &World| render(world, &settings, &Progress::none()).unwrap().film;
         assert_eq!(picture(&world), picture(&World::new(&scene).unwrap()));
-        assert!(world.set_camera(&Camera { right: Vec3::ZERO, ..camera.clone() }).is_err());
+        assert!(world.set_camera(&Camera { right: Vec3::ZERO, ..camera }).is_err());
     }
 }
