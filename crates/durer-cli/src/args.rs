@@ -1,5 +1,6 @@
 //! The arguments of the command line.
 
+use crate::frames::{FrameArgs, PartArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use durer::math::{Point3, Ray, Vec3};
 use durer::render::{AntiAliasing, Region};
@@ -46,7 +47,7 @@ pub(crate) enum NoiseChoice {
 }
 
 /// How to read a scene.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct SceneArgs {
     /// The scene: a .pov file, or a mesh as .obj, .ply, .stl, .gltf or .glb, which is framed and
     /// lit by itself.
@@ -138,6 +139,10 @@ pub(crate) struct RenderArgs {
     /// rest is transparent.
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = region)]
     pub(crate) region: Option<Region>,
+    #[command(flatten)]
+    pub(crate) part: PartArgs,
+    #[command(flatten)]
+    pub(crate) frames: FrameArgs,
     /// Shows no progress bar.
     #[arg(long)]
     pub(crate) no_progress: bool,

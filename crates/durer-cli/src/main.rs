@@ -6,6 +6,7 @@ mod arrays;
 mod check;
 mod explain;
 mod failure;
+mod frames;
 mod input;
 mod noise;
 mod output;

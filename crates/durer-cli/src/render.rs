@@ -1,10 +1,10 @@
 //! `durer render`: renders a scene to a picture.
 
-use crate::args::RenderArgs;
+use crate::args::{RenderArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::input;
 use durer::render::film::{Bits, FileFormat, Film, SaveError};
-use durer::render::{Progress, RenderError, RenderSettings, Rendered, Status, World, render};
+use durer::render::{Progress, Region, RenderError, RenderSettings, Rendered, Status, World, render};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -18,14 +18,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let bits = if args.bits == 16 { Bits::Sixteen } else { Bits::Eight };
     let format = FileFormat::of(&output, bits).map_err(|e| Failure::Usage(e.to_string()))?;
     check_place(&output)?;
+    let region = args.part()?;
+    let frames = args.frames.frames(&output)?;
+    let Some(frames) = frames else {
+        return one(args, &args.scene, (&output, format), region);
+    };
+    frames.into_iter().try_for_each(|frame| {
+        let mut scene = args.scene.clone();
+        scene.clock = frame.clock;
+        // What the command line declares counts.
+        scene.declare = frame.names.into_iter().chain(scene.declare).collect();
+        one(args, &scene, (&frame.output, format), region)
+    })
+}
+
+/// Renders one picture.
+fn one(
+    args: &RenderArgs,
+    scene: &SceneArgs,
+    (output, format): (&Path, FileFormat),
+    region: Option<Region>,
+) -> Result<(), Failure> {
     let (width, height) = args.size.size();
-    if let Some(region) = args.region
-        && region.within(width, height).pixels() == 0
-    {
-        return Err(Failure::Usage(format!("the region lies outside the picture of {width}x{height}")));
-    }
     input::with_threads(args.threads, || {
-        let loaded = input::load(&args.scene, (width, height))?;
+        let loaded = input::load(scene, (width, height))?;
         loaded.save_written()?;
         if loaded.scene().camera.is_none() {
             return Err(Failure::file(&args.scene.scene, "the scene has no camera, and a picture needs one"));
@@ -35,21 +51,21 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             width,
             height,
             anti_aliasing: args.aa,
-            region: args.region,
+            region,
             depth: format.depth(),
             threads: None,
         };
         // Without a handler, Ctrl-C ends the program as usual, and only the partial picture is
-        // lost.
+        // lost. Later pictures of a sequence keep the handler of the first.
         let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         let rendered = watched(&world, &settings, args.no_progress);
         let rendered = rendered.map_err(|e| Failure::file(&args.scene.scene, e))?;
         if rendered.cancelled {
-            let partial = partial_name(&output);
+            let partial = partial_name(output);
             save(&rendered.film, &partial, format)?;
             return Err(Failure::Interrupted(partial));
         }
-        save(&rendered.film, &output, format)
+        save(&rendered.film, output, format)
     })
 }
 

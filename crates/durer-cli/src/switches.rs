@@ -57,6 +57,35 @@ pub(crate) fn translated(arguments: Vec<OsString>) -> Result<Vec<OsString>, Fail
     Ok(all)
 }
 
+/// Switches for sequences whose words have three letters.
+const FRAMES: [(&str, &str); 2] = [("KFI", "--initial-frame"), ("KFF", "--final-frame")];
+
+/// Switches for sequences and parts of pictures whose words have two letters.
+const PARTS: [(&str, &str); 8] = [
+    ("KI", "--initial-clock"),
+    ("KF", "--final-clock"),
+    ("SF", "--subset-start"),
+    ("EF", "--subset-end"),
+    ("SC", "--start-column"),
+    ("EC", "--end-column"),
+    ("SR", "--start-row"),
+    ("ER", "--end-row"),
+];
+
+/// Words of INI files that stand for an option with the same value.
+const SETTINGS: [(&str, &str); 10] = [
+    ("initial_frame", "--initial-frame"),
+    ("final_frame", "--final-frame"),
+    ("initial_clock", "--initial-clock"),
+    ("final_clock", "--final-clock"),
+    ("subset_start_frame", "--subset-start"),
+    ("subset_end_frame", "--subset-end"),
+    ("start_column", "--start-column"),
+    ("end_column", "--end-column"),
+    ("start_row", "--start-row"),
+    ("end_row", "--end-row"),
+];
+
 fn is_ini(text: &str) -> bool {
     text.to_ascii_lowercase().ends_with(".ini")
 }
@@ -104,10 +133,14 @@ impl Translated {
             self.smoothing.depth = whole(1)?;
         } else if upper.starts_with("FN16") {
             self.option("--bits", "16");
-        } else if ["KF", "KI", "SF", "EF", "SC", "EC", "SR", "ER"].iter().any(|word| upper.starts_with(word))
-        {
-            let text = format!("{text}: durer renders one whole picture; --clock and --region choose it");
-            return Err(Failure::Usage(text));
+        } else if let Some((_, name)) = FRAMES.iter().find(|(word, _)| upper.starts_with(word)) {
+            self.option(name, number(3)?.to_string());
+        } else if let Some((_, name)) = PARTS.iter().find(|(word, _)| upper.starts_with(word)) {
+            self.option(name, number(2)?.to_string());
+        } else if upper == "KC" {
+            if is_on {
+                self.options.push("--cyclic".into());
+            }
         } else if upper.starts_with('K') {
             self.option("--clock", number(1)?.to_string());
         } else if !upper.starts_with(|c: char| "BCDFGJMPQSUVXH".contains(c)) {
@@ -165,11 +198,13 @@ impl Translated {
             "antialias_depth" => self.smoothing.depth = value.parse().map_err(|_| wrong())?,
             "sampling_method" => self.smoothing.method = value.parse().map_err(|_| wrong())?,
             "declare" => self.option("--declare", value),
-            "final_frame" | "initial_frame" | "subset_start_frame" | "subset_end_frame" => {
-                return Err(Failure::Usage(format!("{key}: durer renders one picture; --clock chooses it")));
-            }
+            "cyclic_animation" if truth => self.options.push("--cyclic".into()),
             // Displays, buffers, formats and the like have no effect here.
-            _ => {}
+            word => {
+                if let Some((_, name)) = SETTINGS.iter().find(|(known, _)| *known == word) {
+                    self.option(name, value);
+                }
+            }
         }
         Ok(())
     }
@@ -195,6 +230,18 @@ mod tests {
     }
 
     #[test]
+    fn sequences_and_parts_become_options() {
+        let own = translated(words(
+            "durer render +Ia.pov +KFI1 +KFF10 +KI2 +KF4.5 +SF3 +EF0.5 +KC +SC0.25 +EC8 +SR3 +ER.5",
+        ))
+        .ok();
+        let wanted = "durer render --initial-frame 1 --final-frame 10 --initial-clock 2 --final-clock 4.5 \
+                      --subset-start 3 --subset-end 0.5 --cyclic --start-column 0.25 --end-column 8 \
+                      --start-row 3 --end-row 0.5 a.pov";
+        assert_eq!(own, Some(words(wanted)));
+    }
+
+    #[test]
     fn other_command_lines_stay_as_they_are() {
         for text in ["durer check +W8", "durer render a.pov -o b.png -L x --width 8", "durer"] {
             assert_eq!(translated(words(text)).ok(), Some(words(text)));
@@ -203,7 +250,7 @@ mod tests {
 
     #[test]
     fn what_is_not_understood_is_named() {
-        for text in ["+Wwide", "+Z1", "+KFI1", "nowhere.ini"] {
+        for text in ["+Wwide", "+Z1", "+KFIx", "nowhere.ini"] {
             assert!(translated(words(&format!("durer render a.pov {text}"))).is_err(), "{text}");
         }
     }

@@ -98,6 +98,8 @@ fn scene_of(objects: Vec<Object>, bounds: Aabb, format: Format, [width, height]:
         direction: -back,
         right: right * (unit_of * width),
         up: up * (unit_of * height),
+        lens: None,
+        normal: None,
     };
     let lamp = location + (up * 0.6 - right * 0.8) * distance;
     Scene {

@@ -1,33 +1,41 @@
 //! Cameras: four vectors and a location, whatever the form of the block.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use durer_math::elementary;
 
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
+use crate::lens::Lens;
 use crate::lexer::Mark;
+use crate::mesh_camera::CameraMeshes;
 use crate::parser::{Item, Parser};
+use crate::scene_builder::{point, vector};
+use crate::texture::Normal;
 use crate::transform::{Matrix, cross, dot, length};
 use crate::value::Value;
 
 /// How the rays of a camera start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Projection {
     #[default]
     Perspective,
     Orthographic,
     Fisheye,
     UltraWideAngle,
+    Omnimax,
     Panoramic,
     Spherical,
     /// One of the four kinds.
     Cylinder(u8),
+    /// From the faces of meshes.
+    Mesh(Rc<CameraMeshes>),
 }
 
 /// A finished camera. Rays start at `location` along `direction + u right + v up` (perspective), or
 /// at `location + u right + v up` along `direction` (orthographic), with u and v from -1/2 to 1/2.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Camera {
     pub(crate) projection: Projection,
     pub(crate) location: [f64; 3],
@@ -39,6 +47,10 @@ pub(crate) struct Camera {
     look_at: [f64; 3],
     /// The angles in degrees that the text gives: the horizontal one, and the vertical one.
     pub(crate) angles: [Option<f64>; 2],
+    pub(crate) lens: Lens,
+    /// The distance of the plane of focus; transformations do not change it.
+    focus: f64,
+    pub(crate) normal: Option<(Rc<Normal>, Place)>,
 }
 
 impl Default for Camera {
@@ -52,6 +64,9 @@ impl Default for Camera {
             sky: [0.0, 1.0, 0.0],
             look_at: [0.0, 0.0, 1.0],
             angles: [None; 2],
+            lens: Lens::default(),
+            focus: 0.0,
+            normal: None,
         }
     }
 }
@@ -88,24 +103,49 @@ fn scaled(v: [f64; 3], by: f64) -> [f64; 3] {
 }
 
 impl Camera {
+    /// The camera as data of the scene.
+    pub(crate) fn scene(&self) -> Result<durer_scene::Camera> {
+        let normal = match &self.normal {
+            Some((own, at)) => crate::normal_builder::normal(own, *at)?.map(Arc::new),
+            None => None,
+        };
+        Ok(durer_scene::Camera {
+            projection: self.projection()?,
+            location: point(self.location),
+            direction: vector(self.direction),
+            right: vector(self.right),
+            up: vector(self.up),
+            lens: self.lens.scene(self.focus)?,
+            normal,
+        })
+    }
+
     /// The projection as data of the scene.
-    pub(crate) fn projection(&self) -> durer_scene::Projection {
+    fn projection(&self) -> Result<durer_scene::Projection> {
         use durer_scene::Projection as To;
         let angle = |absent: f64| self.angles[0].unwrap_or(absent).to_radians();
-        match self.projection {
+        Ok(match &self.projection {
             Projection::Perspective => To::Perspective,
             Projection::Orthographic => To::Orthographic,
             Projection::Fisheye => To::Fisheye(angle(90.0)),
             Projection::UltraWideAngle => To::UltraWideAngle(angle(90.0)),
+            Projection::Omnimax => To::Omnimax,
             Projection::Panoramic => To::Panoramic,
             Projection::Spherical => {
                 let wide = angle(360.0);
                 To::Spherical(wide, self.angles[1].map_or(wide * 0.5, f64::to_radians))
             }
             Projection::Cylinder(kind) => {
-                To::Cylinder { angle: angle(90.0), vertical: kind % 2 == 1, moving: kind > 2 }
+                To::Cylinder { angle: angle(90.0), vertical: kind % 2 == 1, moving: *kind > 2 }
             }
-        }
+            Projection::Mesh(meshes) => To::Mesh(Arc::new(meshes.scene()?)),
+        })
+    }
+
+    /// The distance of the plane of focus for a focal point: that of the point itself (a fact of the
+    /// scene language).
+    fn distance_to(&self, target: [f64; 3]) -> f64 {
+        length(std::array::from_fn(|i| target[i] - self.location[i]))
     }
 
     fn transform(&mut self, by: &Matrix) {
@@ -159,18 +199,18 @@ impl Parser<'_> {
         let begin = self.here();
         self.expect(Mark::BraceOpen)?;
         let known = match self.peek()? {
-            Item::Value(Value::Camera(known)) => Some(**known),
+            Item::Value(Value::Camera(known)) => Some((**known).clone()),
             _ => None,
         };
         if known.is_some() {
             self.next()?;
         }
-        let mut camera = known.unwrap_or(match self.scene.camera {
-            Some(before) if self.applies_in_written_order() => before,
-            _ => self.default_camera,
-        });
         // Only in old scenes may a declared camera be changed in more than its placement.
         let is_whole = known.is_some() && !self.applies_in_written_order();
+        let mut camera = known.unwrap_or_else(|| match &self.scene.camera {
+            Some(before) if self.applies_in_written_order() => before.clone(),
+            _ => self.default_camera.clone(),
+        });
         let mut settings = Vec::new();
         let mut moves = Vec::new();
         loop {
@@ -199,6 +239,14 @@ impl Parser<'_> {
                     camera.projection = Projection::UltraWideAngle;
                     continue;
                 }
+                Item::Word(Keyword::Omnimax) => {
+                    camera.projection = Projection::Omnimax;
+                    continue;
+                }
+                Item::Word(Keyword::MeshCamera) => {
+                    camera.projection = Projection::Mesh(Rc::new(self.nested(Self::mesh_camera)?));
+                    continue;
+                }
                 Item::Word(Keyword::Panoramic) => {
                     camera.projection = Projection::Panoramic;
                     continue;
@@ -217,25 +265,11 @@ impl Parser<'_> {
                     continue;
                 }
                 Item::Word(Keyword::Normal) => {
-                    self.note_left_out("normal of a camera", place)?;
-                    self.nested(|r| r.normal_block(&crate::texture::Normal::default()))?;
+                    let normal = self.nested(|r| r.normal_block(&Normal::default()))?;
+                    camera.normal = Some((Rc::new(normal), place));
                     continue;
                 }
-                Item::Word(
-                    Keyword::Aperture | Keyword::BlurSamples | Keyword::Variance | Keyword::Confidence,
-                ) => {
-                    self.note_left_out("focal blur", place)?;
-                    self.float()?;
-                    self.skip_comma()?;
-                    if self.starts_number()? {
-                        self.float()?;
-                    }
-                    continue;
-                }
-                Item::Word(Keyword::FocalPoint) => {
-                    self.vector()?;
-                    continue;
-                }
+                Item::Word(keyword) if self.lens_item(*keyword, &mut camera.lens, place)? => continue,
                 Item::Word(Keyword::Right) => Setting::Right(self.axis("right")?),
                 Item::Word(Keyword::Up) => Setting::Up(self.axis("up")?),
                 Item::Word(Keyword::Direction) => Setting::Direction(self.axis("direction")?),
@@ -263,11 +297,16 @@ impl Parser<'_> {
             }
             self.apply(&mut camera, &settings)?;
         }
+        if !is_whole {
+            camera.focus = camera.distance_to(camera.lens.focal_point);
+        }
         for by in &moves {
             camera.transform(by);
         }
         let volume = dot(cross(camera.direction, camera.up), camera.right);
-        if volume == 0.0 || !volume.is_finite() {
+        let is_flat = volume == 0.0 || !volume.is_finite();
+        // The vectors of a mesh camera have no meaning.
+        if is_flat && !matches!(camera.projection, Projection::Mesh(_)) {
             let text = "the camera's direction, up and right do not span space";
             return Err(Error::invalid(begin, text));
         }

@@ -283,7 +283,11 @@ impl Parser<'_> {
                 self.next()?;
                 self.camera_value()
             }
-            Keyword::Media | Keyword::Rainbow => {
+            Keyword::Rainbow => {
+                self.next()?;
+                Ok(Value::Rainbow(self.rainbow_block()?))
+            }
+            Keyword::Media => {
                 self.next()?;
                 self.leave_out(keyword, place)?;
                 let text = format!("not supported yet: {}", keyword.text());

@@ -134,7 +134,11 @@ impl Parser<'_> {
         }
         match keyword {
             Keyword::Clock => return Ok(Some(self.options.clock.into())),
-            Keyword::ClockOn => return Ok(Some(flag(self.options.clock != 0.0))),
+            Keyword::ClockOn => {
+                let declared = &self.options.declares;
+                let in_sequence = declared.iter().any(|(name, value)| name == "final_frame" && *value > 0.0);
+                return Ok(Some(flag(in_sequence || self.options.clock != 0.0)));
+            }
             Keyword::Version => return Ok(Some(self.language.version.into())),
             Keyword::Now => {
                 let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);

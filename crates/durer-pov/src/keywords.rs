@@ -100,7 +100,7 @@ keywords! {
     MaxIteration = "max_iteration", MaxSample = "max_sample", MaxTrace = "max_trace",
     MaxTraceLevel = "max_trace_level", MaximumReuse = "maximum_reuse", Media = "media",
     MediaAttenuation = "media_attenuation", MediaInteraction = "media_interaction", Merge = "merge",
-    Mesh = "mesh", Mesh2 = "mesh2", Metallic = "metallic", Method = "method", Metric = "metric",
+    Mesh = "mesh", Mesh2 = "mesh2", MeshCamera = "mesh_camera", Metallic = "metallic", Method = "method", Metric = "metric",
     Min = "min", MinExtent = "min_extent", MinimumReuse = "minimum_reuse", MmPerUnit = "mm_per_unit",
     Mod = "mod", Mortar = "mortar", NaturalSpline = "natural_spline", NearestCount = "nearest_count",
     No = "no", NoBumpScale = "no_bump_scale", NoImage = "no_image", NoRadiosity = "no_radiosity",

@@ -43,6 +43,8 @@ pub(crate) struct Light {
     pub(crate) area: Option<Area>,
     /// The object that is shown in its place; it does not shadow this light.
     pub(crate) looks_like: Option<Rc<Object>>,
+    /// The object through which it shines.
+    pub(crate) through: Option<Rc<Object>>,
 }
 
 impl Light {
@@ -60,6 +62,7 @@ impl Light {
             fade_power: 0.0,
             area: None,
             looks_like: None,
+            through: None,
         }
     }
 
@@ -70,8 +73,8 @@ impl Light {
         if let Some(area) = &mut self.area {
             area.sides = area.sides.map(|side| by.direction(side));
         }
-        if let Some(shown) = &mut self.looks_like {
-            Rc::make_mut(shown).transform(by);
+        for object in self.looks_like.iter_mut().chain(&mut self.through) {
+            Rc::make_mut(object).transform(by);
         }
     }
 }
@@ -87,6 +90,8 @@ pub(crate) struct Area {
     pub(crate) circular: bool,
     pub(crate) orient: bool,
     pub(crate) adaptive: Option<u32>,
+    /// Whether each of the points lights surfaces, and not the location alone.
+    pub(crate) illuminates: bool,
 }
 
 impl Parser<'_> {
@@ -172,13 +177,11 @@ impl Parser<'_> {
                     light.area.get_or_insert_with(Area::default).orient = true;
                 }
                 Item::Word(Keyword::AreaIllumination) => {
-                    if self.switch_value()? {
-                        return Err(Error::unsupported(lexeme.place, "area_illumination"));
-                    }
+                    let on = self.switch_value()?;
+                    light.area.get_or_insert_with(Area::default).illuminates = on;
                 }
                 Item::Word(Keyword::ProjectedThrough) => {
-                    self.note_left_out("projected_through", lexeme.place)?;
-                    self.nested(Self::object_in_braces)?;
+                    light.through = Some(self.nested(Self::object_in_braces)?);
                 }
                 Item::Word(Keyword::Photons) => self.skip_photons()?,
                 Item::Word(Keyword::LooksLike) => {

@@ -229,7 +229,7 @@ impl Parser<'_> {
                     self.nested(|r| r.run_directive(directive, NO_BLOCK, place))?;
                 }
                 Item::Word(Keyword::Media) => self.leave_out(Keyword::Media, place)?,
-                Item::Word(Keyword::Rainbow) => self.leave_out(Keyword::Rainbow, place)?,
+                Item::Word(Keyword::Rainbow) => self.rainbow_statement()?,
                 Item::Word(Keyword::Background) => self.background()?,
                 Item::Word(Keyword::Fog) => {
                     self.put_back(lexeme);

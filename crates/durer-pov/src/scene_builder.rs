@@ -14,7 +14,7 @@ use crate::colour::Colour;
 use crate::diagnostics::{Error, Place, Result};
 use crate::light::{Beam, Light};
 use crate::limits;
-use crate::object::{Object, Shape, subdivision_bytes};
+use crate::object::{Mesh, Object, Shape, subdivision_bytes};
 use crate::parser::Parser;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Film, Finish, Interior, Layer, Texture};
@@ -31,6 +31,11 @@ pub(crate) struct Output {
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
     lights: Vec<scene::Light>,
+    pub(crate) rainbows: Vec<scene::Rainbow>,
+    /// The light groups.
+    groups: Vec<scene::LightGroup>,
+    /// The number of the light group whose objects are being converted.
+    pub(crate) group: Option<u32>,
     /// The textures made lately. Equal textures are shared.
     textures: VecDeque<(Rc<Texture>, Arc<scene::Texture>)>,
     default: Option<(Rc<Layer>, Arc<scene::Texture>)>,
@@ -78,12 +83,15 @@ pub(crate) fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> 
     affine(matrix, at).map(scene::Placement::new)
 }
 
-/// Lights, each with its placement by the unions around it.
-pub(crate) type Lights = Vec<(Rc<Light>, Matrix)>;
+/// The lights of an object.
+pub(crate) type Lights = Vec<PlacedLight>;
+
+/// A light with its placement by the unions around it, and the number of its light group.
+pub(crate) type PlacedLight = (Rc<Light>, Matrix, Option<u32>);
 
 /// Transforms lights by a union's transformation.
-pub(crate) fn move_lights(lights: &mut [(Rc<Light>, Matrix)], by: &Matrix) {
-    for (_, moved) in lights {
+pub(crate) fn move_lights(lights: &mut [PlacedLight], by: &Matrix) {
+    for (_, moved, _) in lights {
         *moved = moved.then(by);
     }
 }
@@ -102,8 +110,8 @@ impl Parser<'_> {
             dress(&mut shown, &default);
             self.scene.objects.push(shown);
         }
-        for (light, moved) in lights {
-            self.emit_light(&light, &moved, &default)?;
+        for light in lights {
+            self.emit_light(&light, &default)?;
         }
         Ok(())
     }
@@ -120,7 +128,11 @@ impl Parser<'_> {
         Ok(made)
     }
 
-    fn emit_light(&mut self, light: &Light, moved: &Matrix, default: &Arc<scene::Texture>) -> Result<()> {
+    fn emit_light(
+        &mut self,
+        (light, moved, group): &PlacedLight,
+        default: &Arc<scene::Texture>,
+    ) -> Result<()> {
         let kind = match light.beam {
             Beam::Point | Beam::Shadowless => scene::LightKind::Point,
             Beam::Spot => scene::LightKind::Spot {
@@ -133,6 +145,14 @@ impl Parser<'_> {
                 falloff: light.falloff,
                 tightness: light.tightness,
             },
+        };
+        let through = match &light.through {
+            Some(object) => {
+                let mut object = (**object).clone();
+                object.transform(moved);
+                self.emitted(&object, &mut Lights::new())?.map(Arc::new)
+            }
+            None => None,
         };
         let fades = light.fade_distance != 0.0 && light.fade_power > 0.0;
         limits::charge_for_good(size_of::<scene::Light>());
@@ -149,7 +169,10 @@ impl Parser<'_> {
                 circular: area.circular,
                 orient: area.orient,
                 adaptive: area.adaptive,
+                illuminates: area.illuminates,
             }),
+            through,
+            group: *group,
             fade: fades.then_some(scene::Fade { distance: light.fade_distance, power: light.fade_power }),
         });
         let Some(shown) = &light.looks_like else { return Ok(()) };
@@ -168,12 +191,33 @@ impl Parser<'_> {
     /// Converts an object to scene data; its lights are added to `lights`. `None` if no surface is
     /// left.
     pub(crate) fn emitted(&mut self, object: &Object, lights: &mut Lights) -> Result<Option<scene::Object>> {
+        let Some(global_lights) = object.habits.light_group else {
+            return self.emitted_in_group(object, lights);
+        };
+        let around = self.scene.group;
+        // The outermost group decides on global lights (a fact of the scene language).
+        let outer = around.and_then(|group| self.scene.groups.get(group as usize));
+        let global_lights = outer.map_or(global_lights, |outer| outer.global_lights);
+        limits::charge_for_good(size_of::<scene::LightGroup>());
+        let number = self.scene.groups.len() as u32;
+        self.scene.groups.push(scene::LightGroup { global_lights });
+        self.scene.group = Some(number);
+        let made = self.emitted_in_group(object, lights);
+        self.scene.group = around;
+        Ok(made?.map(|mut made| {
+            made.flags.light_group = Some(number);
+            made
+        }))
+    }
+
+    /// [`Self::emitted`], within the light group that is open.
+    fn emitted_in_group(&mut self, object: &Object, lights: &mut Lights) -> Result<Option<scene::Object>> {
         if object.lacks_volume {
             return Ok(self.without_volume(object, lights)?.surfaces());
         }
         let shape = match &object.shape {
             Shape::Light(light) => {
-                lights.push((light.clone(), object.place));
+                lights.push((light.clone(), object.place, self.scene.group));
                 return Ok(None);
             }
             Shape::Union(parts) => {
@@ -189,10 +233,12 @@ impl Parser<'_> {
                 scene::Shape::Union(shown)
             }
             Shape::Csg(operation, parts) => {
+                let first = lights.len();
                 let mut shown = Vec::with_capacity(parts.len());
                 for part in parts {
                     shown.extend(self.emitted(part, lights)?);
                 }
+                move_lights(&mut lights[first..], &object.place);
                 scene::Shape::Csg(*operation, shown)
             }
             Shape::Deform(solid, warps) => {
@@ -314,18 +360,14 @@ impl Parser<'_> {
         Ok(scene::Scene {
             objects: output.objects,
             lights: output.lights,
-            camera: output.camera.map(|camera| scene::Camera {
-                projection: camera.projection(),
-                location: point(camera.location),
-                direction: vector(camera.direction),
-                right: vector(camera.right),
-                up: vector(camera.up),
-            }),
+            camera: output.camera.map(|camera| camera.scene()).transpose()?,
             background: output.background.map_or_else(scene::Background::default, |color| {
                 scene::Background(scene::Colour::from_terms(color))
             }),
             sky,
             fogs: output.fogs,
+            rainbows: output.rainbows,
+            light_groups: output.groups,
             noise: self.options.noise.clone(),
             settings: scene::Settings {
                 assumed_gamma: gamma,
@@ -367,6 +409,29 @@ fn flags(object: &Object) -> scene::Flags {
         inverse: habits.inverse,
         open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
         double_illuminate: habits.double_illuminate,
+        light_group: None,
+    }
+}
+
+/// The triangles of a mesh and their texture coordinates, without its textures.
+pub(crate) fn bare_mesh(mesh: &Mesh) -> scene::Mesh {
+    let faces = mesh.faces.iter().map(|face| scene::Face {
+        vertices: face.vertices,
+        normals: face.normals,
+        texture: face.texture,
+    });
+    scene::Mesh {
+        vertices: mesh.vertices.iter().copied().map(point).collect(),
+        normals: mesh.normals.iter().copied().map(unit).collect(),
+        faces: faces.collect(),
+        uv: mesh.uv.clone(),
+        uv_faces: if mesh.faces.iter().any(|face| face.uv.is_some()) {
+            mesh.faces.iter().map(|face| face.uv).collect()
+        } else {
+            Vec::new()
+        },
+        textures: Vec::new(),
+        inside_vector: mesh.inside_vector.map(vector),
     }
 }
 
@@ -405,21 +470,9 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
             rule: *rule,
         },
         Shape::Mesh(mesh) => {
-            let faces = mesh.faces.iter().map(|face| scene::Face {
-                vertices: face.vertices,
-                normals: face.normals,
-                texture: face.texture,
-            });
             let textures = mesh.textures.iter().map(|own| texture_of_object(own, at));
-            let made = scene::Mesh {
-                vertices: mesh.vertices.iter().copied().map(point).collect(),
-                normals: mesh.normals.iter().copied().map(unit).collect(),
-                faces: faces.collect(),
-                uv: mesh.uv.clone(),
-                uv_faces: mesh.uv_faces.clone(),
-                textures: textures.collect::<Result<_>>()?,
-                inside_vector: mesh.inside_vector.map(vector),
-            };
+            let textures = textures.collect::<Result<_>>()?;
+            let made = scene::Mesh { textures, ..bare_mesh(mesh) };
             limits::charge_for_good(
                 (made.vertices.len() + made.normals.len()) * 24
                     + made.faces.len() * 36

@@ -13,10 +13,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Absorption
             | Alpha
             | AlwaysSample
-            | ArcAngle
-            | AreaIllumination
             | Autostop
-            | Bokeh
             | Brightness
             | Collect
             | Composite
@@ -27,15 +24,12 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | ErrorBound
             | ExpandThresholds
             | Extinction
-            | FalloffAngle
             | Gather
-            | GlobalLights
             | GrayThreshold
             | Iff
             | Importance
             | InteriorTexture
             | Intervals
-            | LightGroup
             | LoadFile
             | LowErrorFactor
             | MaxSample
@@ -45,7 +39,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | NearestCount
             | NumberOfSides
             | NumberOfTiles
-            | Omnimax
             | PassThrough
             | Pattern
             | Pavement

@@ -179,6 +179,7 @@ pub(crate) enum Value {
     Interior(Rc<crate::texture::Interior>),
     Material(Rc<crate::texture::Material>),
     Fog(Rc<crate::atmosphere::Fog>),
+    Rainbow(Rc<crate::rainbow::Rainbow>),
     SkySphere(Rc<crate::atmosphere::SkySphere>),
     Camera(Rc<crate::camera::Camera>),
     Object(Rc<crate::object::Object>),
@@ -218,6 +219,7 @@ impl Value {
             Self::Interior(_) => "an interior",
             Self::Material(_) => "a material",
             Self::Fog(_) => "fog",
+            Self::Rainbow(_) => "a rainbow",
             Self::SkySphere(_) => "a sky sphere",
             Self::Camera(_) => "a camera",
             Self::Object(_) => "an object",
@@ -243,7 +245,7 @@ impl Value {
             Self::Function(called) => called.held(),
             Self::VectorFunction(function) => function.held(),
             Self::SkySphere(sky) => sky.pigments.len() * layer,
-            Self::Fog(_) | Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
+            Self::Fog(_) | Self::Rainbow(_) | Self::Interior(_) | Self::Transform(_) | Self::Camera(_) => 256,
             _ => 0,
         }
     }

@@ -74,7 +74,7 @@ impl Parser<'_> {
             Shape::Nothing => (Volume::Empty, Vec::new()),
             &Shape::FlatBox { a, b } => (Volume::Empty, vec![scene::Object::new(rectangle(a, b))]),
             Shape::Light(light) => {
-                lights.push((light.clone(), object.place));
+                lights.push((light.clone(), object.place, self.scene.group));
                 (Volume::Empty, Vec::new())
             }
             Shape::Union(parts) => {

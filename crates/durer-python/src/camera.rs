@@ -32,6 +32,8 @@ impl Camera {
             direction: vec3(direction),
             right: vec3(right),
             up: vec3(up),
+            lens: None,
+            normal: None,
         };
         Lens::new(&data).map_err(value_error)?;
         Ok(Self { data })

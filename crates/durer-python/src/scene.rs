@@ -69,7 +69,7 @@ fn scene(
             .into_iter()
             .map(|(place, [r, g, b])| Light::point(point(place), Rgb::new(r, g, b)))
             .collect(),
-        camera: camera.map(|c| c.data),
+        camera: camera.map(|c| c.data.clone()),
         background: Background(Colour::opaque(Rgb::new(r, g, b))),
         ..SceneData::default()
     };
@@ -170,7 +170,7 @@ impl Scene {
 
     #[getter]
     fn camera(&self) -> Option<Camera> {
-        self.data.camera.map(|data| Camera { data })
+        self.data.camera.clone().map(|data| Camera { data })
     }
 
     #[getter]
@@ -181,7 +181,7 @@ impl Scene {
     /// The same scene, seen by another camera, with more lights.
     fn seen_by(&self, py: Python<'_>, camera: &Camera, lights: Vec<([f64; 3], [f64; 3])>) -> PyResult<Self> {
         let mut data = self.data.clone();
-        data.camera = Some(camera.data);
+        data.camera = Some(camera.data.clone());
         let more = lights.into_iter();
         data.lights.extend(more.map(|(at, [r, g, b])| Light::point(point(at), Rgb::new(r, g, b))));
         build(py, data, self.warnings.clone())

@@ -11,7 +11,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use durer_math::{F8, M8, Point3, Vec3, elementary};
-use durer_scene::{Fog, GroundFog, Rgb};
+use durer_scene::{Fog, GroundFog, Rainbow, Rgb};
 
 use crate::lanes::Rgb8;
 use crate::texture::Stir;
@@ -102,8 +102,42 @@ fn halfway(stir: &Stir, ways: &Ways) -> F8 {
     stir.scalar(Point3::new(x * a, y * b, z * c))
 }
 
-/// The effect of all fog on the light from behind it; `None` without fog.
-pub(crate) fn veil(fogs: &[RenderFog], ways: &Ways) -> Option<Veil> {
+/// What lies between the start of a ray and what it sees.
+#[derive(Clone, Copy)]
+pub(crate) struct Air<'w> {
+    pub(crate) fogs: &'w [RenderFog],
+    pub(crate) rainbows: &'w [Rainbow],
+}
+
+impl Air<'_> {
+    /// Nothing.
+    pub(crate) const CLEAR: Self = Self { fogs: &[], rainbows: &[] };
+
+    /// Whether nothing lies there.
+    #[inline(always)]
+    pub(crate) fn is_clear(&self) -> bool {
+        self.fogs.is_empty() && self.rainbows.is_empty()
+    }
+}
+
+/// The effect of fog and rainbows on the light from behind them; `None` without any. Rainbows are
+/// seen through fog.
+pub(crate) fn veil(air: &Air<'_>, ways: &Ways) -> Option<Veil> {
+    let fog = veil_of_fogs(air.fogs, ways);
+    if air.rainbows.is_empty() {
+        return fog;
+    }
+    let rainbow = crate::rainbow::veil(air.rainbows, ways);
+    Some(match fog {
+        None => rainbow,
+        Some(fog) => {
+            Veil { passed: rainbow.passed * fog.passed, added: rainbow.added * fog.passed + fog.added }
+        }
+    })
+}
+
+/// The effect of all fog; `None` without fog.
+fn veil_of_fogs(fogs: &[RenderFog], ways: &Ways) -> Option<Veil> {
     let mut all: Option<Veil> = None;
     for fog in fogs {
         let one = fog.veil(ways);

@@ -46,7 +46,7 @@ pub struct PixelTracer<'w> {
 impl<'w> PixelTracer<'w> {
     /// A tracer for pictures of `size` (columns and rows). It stops where `stop` is cancelled.
     pub fn new(world: &'w World, size: (u32, u32), stop: Progress<'w>) -> Result<Self, RenderError> {
-        let camera = *world.camera().ok_or(RenderError::NoCamera)?;
+        let camera = world.camera().ok_or(RenderError::NoCamera)?.clone();
         Ok(Self { tracer: Whitted::new(world).stopped_by(&stop), camera, size, places: Vec::new() })
     }
 
@@ -185,7 +185,7 @@ mod tests {
         // Inside the clear ball.
         let camera = Camera { location: Point3::new(1.1, 0.1, 5.2), ..Camera::default() };
         world.set_camera(&camera).unwrap();
-        scene.camera = Some(camera);
+        scene.camera = Some(camera.clone());
         let settings = RenderSettings { width: 20, height: 15, ..RenderSettings::default() };
         let picture = |world: &World| render(world, &settings, &Progress::none()).unwrap().film;
         assert_eq!(picture(&world), picture(&World::new(&scene).unwrap()));

@@ -44,6 +44,7 @@ mod medium;
 mod pigment_colours;
 mod power;
 mod progress;
+mod rainbow;
 mod ray_end;
 mod render;
 mod sampler;

@@ -77,7 +77,7 @@ fn render_here(
     progress: &Progress<'_>,
 ) -> Result<Rendered, RenderError> {
     let RenderSettings { width, height, anti_aliasing, region, depth, .. } = *settings;
-    let camera = *world.camera().ok_or(RenderError::NoCamera)?;
+    let camera = world.camera().ok_or(RenderError::NoCamera)?;
     if !(1..=MOST_PIXELS).contains(&(u64::from(width) * u64::from(height))) {
         return Err(RenderError::Size { width, height });
     }
@@ -104,7 +104,7 @@ fn render_here(
             }
             tracer.counts = RayCounts::default();
             let pixels = sample_tile(anti_aliasing, tile, (width, height), |places, colours| {
-                tracer.look(&camera, (width, height), places, colours)
+                tracer.look(camera, (width, height), places, colours)
             });
             if (pixels.len() as u64) < tile.pixels() {
                 skipped.fetch_add(1, Ordering::Relaxed);

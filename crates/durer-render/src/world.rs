@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use durer_geometry::Geometry;
 use durer_math::{Aabb, Affine, AffineError, Ray};
-use durer_scene::{Chart, LowerError, Lowered, Place, Placement, Scene, Texture};
+use durer_scene::{Chart, LightGroup, LowerError, Lowered, Place, Placement, Rainbow, Scene, Texture};
 
 use crate::camera::{Camera, CameraError};
 use crate::film::Encoding;
-use crate::fog::RenderFog;
+use crate::fog::{Air, RenderFog};
 use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
@@ -32,6 +32,12 @@ pub struct World {
     standing: Option<Vec<u32>>,
     pub(crate) sky: Sky,
     pub(crate) fogs: Vec<RenderFog>,
+    rainbows: Vec<Rainbow>,
+    /// For each light group, and before them for surfaces without a group: whether each light
+    /// lights its surfaces. Empty without groups.
+    lit: Vec<Vec<bool>>,
+    grains: Grains,
+    number_of_waves: u32,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
     /// Whether the opacity of a layer uses its filter times its greatest channel.
@@ -54,6 +60,8 @@ pub(crate) struct Look {
     pub(crate) inside: u32,
     /// The index of its texture coordinates, if the texture is shown by them.
     pub(crate) chart: Option<u32>,
+    /// One more than the number of its light group, or 0.
+    pub(crate) group: u32,
 }
 
 /// Why a scene cannot be rendered.
@@ -77,10 +85,10 @@ impl World {
     /// Builds the geometry of a scene and prepares its looks, lights and camera.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
         let grains = scene.noise.as_ref().map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
-        building_with(grains, scene.settings.number_of_waves, || Self::built(scene))
+        building_with(grains.clone(), scene.settings.number_of_waves, || Self::built(scene, grains))
     }
 
-    fn built(scene: &Scene) -> Result<Self, WorldError> {
+    fn built(scene: &Scene, grains: Grains) -> Result<Self, WorldError> {
         let lowered = scene.lower_for_pictures()?;
         let settings = &scene.settings;
         let (mut paints, mut charts) = (Vec::new(), Vec::new());
@@ -105,27 +113,37 @@ impl World {
             };
             let inside = look.inside.map_or(own, |inside| inside.0);
             let double_illuminate = look.double_illuminate;
+            let group = look.light_group.map_or(0, |group| group + 1);
             let chart = look.chart.as_ref().map(|chart| {
                 charts.push(chart.clone());
                 (charts.len() - 1) as u32
             });
-            looks.push(Look { paint, medium: look.medium, double_illuminate, inside, chart });
+            looks.push(Look { paint, medium: look.medium, double_illuminate, inside, chart, group });
         }
         let camera = scene.camera.as_ref().map(Camera::new).transpose()?;
         let standing = standing(&lowered, scene.camera.as_ref(), camera.as_ref());
-        let lights = scene.lights.iter().filter_map(RenderLight::new);
+        let mut lamps = Vec::with_capacity(scene.lights.len());
+        for light in &scene.lights {
+            if let Some(lamp) = RenderLight::new(light)? {
+                lamps.push(lamp.among(&lowered.geometry));
+            }
+        }
         Ok(Self {
             has_insides: lowered.looks.iter().any(|l| l.inside.is_some()),
             has_clear_shadows: lowered.looks.iter().any(|l| l.is_clear),
             media: lowered.media.iter().map(|i| Medium::new(i)).collect(),
-            lamps: lights.map(|light| light.among(&lowered.geometry)).collect(),
+            lit: lit(&scene.light_groups, &lamps),
+            lamps,
             looks,
             charts,
             paints,
-            camera_end: camera.map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
+            camera_end: camera.as_ref().map(|camera| RayEnd::camera(&lowered.geometry, camera.start_size())),
             camera,
             standing,
             fogs: scene.fogs.iter().map(RenderFog::new).collect(),
+            rainbows: scene.rainbows.clone(),
+            grains,
+            number_of_waves: settings.number_of_waves,
             sky: Sky::new(scene, settings.version < NEW_OPACITY)?,
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
@@ -151,7 +169,7 @@ impl World {
     ///
     /// Returns a [`CameraError`] if the camera cannot be built; the world then keeps its own.
     pub fn set_camera(&mut self, camera: &durer_scene::Camera) -> Result<(), CameraError> {
-        let built = Camera::new(camera)?;
+        let built = building_with(self.grains.clone(), self.number_of_waves, || Camera::new(camera))?;
         self.standing = standing(&self.lowered, Some(camera), Some(&built));
         self.camera_end = Some(RayEnd::camera(&self.lowered.geometry, built.start_size()));
         self.camera = Some(built);
@@ -181,19 +199,37 @@ impl World {
         self.standing.clone().or_else(|| self.lowered.media_in(&origins()))
     }
 
-    /// All fog around rays in these media.
+    /// The fog and the rainbows around rays in these media.
     #[inline(always)]
-    pub(crate) fn fogs_in(&self, media: &[u32]) -> &[RenderFog] {
-        if self.fogs.is_empty() || media.iter().any(|&m| !self.lowered.hollow[m as usize]) {
-            return &[];
+    pub(crate) fn air_in(&self, media: &[u32]) -> Air<'_> {
+        let air = Air { fogs: &self.fogs, rainbows: &self.rainbows };
+        if air.is_clear() || media.iter().any(|&m| !self.lowered.hollow[m as usize]) {
+            return Air::CLEAR;
         }
-        &self.fogs
+        air
+    }
+
+    /// Whether a light lights surfaces with this look.
+    #[inline(always)]
+    pub(crate) fn lights(&self, lamp: usize, look: &Look) -> bool {
+        // Without groups the list is empty.
+        self.lit.get(look.group as usize).is_none_or(|lit| lit.get(lamp).is_none_or(|&lit| lit))
     }
 
     /// Appends the media in which a camera ray starts.
     pub(crate) fn media_of(&self, ray: &Ray, media: &mut Vec<u32>) {
         self.lowered.media_of(ray, media);
     }
+}
+
+/// Which lights light the surfaces of each light group, and before them those without a group.
+fn lit(groups: &[LightGroup], lamps: &[RenderLight]) -> Vec<Vec<bool>> {
+    if groups.is_empty() {
+        return Vec::new();
+    }
+    let all = core::iter::once(None).chain((0..).map(Some).take(groups.len()));
+    let lights = |group| lamps.iter().map(|lamp| LightGroup::lights(groups, lamp.group, group)).collect();
+    all.map(lights).collect()
 }
 
 /// The media in which all of the camera's rays start, if these are certainly the same for all.

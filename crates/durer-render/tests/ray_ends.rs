@@ -358,6 +358,7 @@ fn each_ray_of_an_orthographic_camera_stands_where_it_starts() {
                     direction: v(tilt, up_or_down, 0.1),
                     right: v(3.7, 0.0, 0.4),
                     up: v(0.3, 0.0, 3.1),
+                    ..durer_scene::Camera::default()
                 }),
                 ..Scene::default()
             };

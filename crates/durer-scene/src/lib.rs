@@ -37,13 +37,14 @@ mod object;
 mod pattern;
 mod placement;
 mod point_warp;
+mod rainbow;
 mod ramp;
 mod sampled;
 mod scene;
 mod shape;
 mod texture;
 
-pub use crate::camera::{Camera, Projection};
+pub use crate::camera::{Camera, Distribution, Lens, MeshCamera, Projection};
 pub use crate::cell_numbers::CellNumbers;
 pub use crate::chart::{Chart, ChartKind, unfolded};
 pub use crate::colour::{Colour, Rgb};
@@ -53,13 +54,14 @@ pub use crate::fog::{Fog, GroundFog};
 pub use crate::image::{Between, Image, ImageMap, ImageValue, Layout};
 pub use crate::interior::Interior;
 pub use crate::learned_noise::LearnedNoise;
-pub use crate::light::{AreaLight, Fade, Light, LightKind};
+pub use crate::light::{AreaLight, Fade, Light, LightGroup, LightKind};
 pub use crate::lower::{Look, LookId, LowerError, LowerErrorKind, Lowered};
 pub use crate::normal::{Height, Normal, NormalBody, Push};
 pub use crate::object::{Flags, Object, Place};
 pub use crate::pattern::{Cells, Pattern, Value, Wave};
 pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
+pub use crate::rainbow::Rainbow;
 pub use crate::ramp::{
     Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Ramp, Ripples, Slope, SlopeTo,
 };

@@ -2,7 +2,9 @@
 
 use durer_math::{Affine, Point3, Vec3};
 
-use crate::Rgb;
+use std::sync::Arc;
+
+use crate::{Object, Rgb};
 
 /// A light source.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,9 +25,31 @@ pub struct Light {
     pub fade: Option<Fade>,
     /// The extent of the light, for soft shadows; `None` for a point.
     pub area: Option<AreaLight>,
+    /// The object through which it shines: only what lies behind this object is lit, and only what
+    /// lies behind it throws shadows.
+    pub through: Option<Arc<Object>>,
+    /// The number of the light group whose objects it lights; `None` for all other objects, and
+    /// those of groups with global lights.
+    pub group: Option<u32>,
 }
 
-/// A grid of points, all of which throw shadows. All other light comes from the location alone.
+/// Lights that light some objects only: those of the group. Other lights do not light its objects,
+/// unless it has global lights, nor do those of a group around it or within it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LightGroup {
+    /// Whether lights without a group light its objects too.
+    pub global_lights: bool,
+}
+
+impl LightGroup {
+    /// Whether a light with this group lights an object with that one.
+    pub fn lights(groups: &[Self], light: Option<u32>, object: Option<u32>) -> bool {
+        let own = object.and_then(|group| groups.get(group as usize));
+        light == object || light.is_none() && own.is_none_or(|group| group.global_lights)
+    }
+}
+
+/// A grid of points, all of which throw shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaLight {
     /// The two sides of the grid, whose middle is the location.
@@ -38,6 +62,8 @@ pub struct AreaLight {
     pub orient: bool,
     /// Only `2^level + 1` points are looked at along each side where their shadows agree.
     pub adaptive: Option<u32>,
+    /// Whether all other light comes from each of the points too, not from the location alone.
+    pub illuminates: bool,
 }
 
 /// The shape of a light's beam.
@@ -87,6 +113,8 @@ impl Light {
             shadowless: false,
             fade: None,
             area: None,
+            through: None,
+            group: None,
         }
     }
 

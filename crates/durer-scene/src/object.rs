@@ -56,6 +56,8 @@ pub struct Flags {
     pub open: bool,
     /// Light from behind the surface counts too.
     pub double_illuminate: bool,
+    /// The number of the light group to which it belongs; that of a part counts before its union's.
+    pub light_group: Option<u32>,
 }
 
 impl Flags {
@@ -70,6 +72,7 @@ impl Flags {
             inverse: self.inverse ^ other.inverse,
             open: self.open | other.open,
             double_illuminate: self.double_illuminate | other.double_illuminate,
+            light_group: other.light_group.or(self.light_group),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{Camera, Colour, Fog, LearnedNoise, Light, Object, Pigment, Rgb};
+use crate::{Camera, Colour, Fog, LearnedNoise, Light, LightGroup, Object, Pigment, Rainbow, Rgb};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,6 +19,10 @@ pub struct Scene {
     pub sky: Option<SkySphere>,
     /// All fog.
     pub fogs: Vec<Fog>,
+    /// All rainbows. They are seen before what lies behind, and through fog.
+    pub rainbows: Vec<Rainbow>,
+    /// The light groups, to which lights and objects refer by their numbers.
+    pub light_groups: Vec<LightGroup>,
     /// The scene's own settings.
     pub settings: Settings,
     /// The noise of textures, if it is not durer's own.

@@ -169,17 +169,19 @@ impl Rig {
     /// The camera in the scene's language, with all digits.
     pub(crate) fn text(&self) -> String {
         let c = &self.camera;
-        let kind = match c.projection {
+        let kind = match &c.projection {
             Projection::Perspective => "perspective".to_owned(),
             Projection::Orthographic => "orthographic".to_owned(),
             Projection::Fisheye(angle) => format!("fisheye angle {}", angle.to_degrees()),
             Projection::UltraWideAngle(angle) => format!("ultra_wide_angle angle {}", angle.to_degrees()),
             Projection::Panoramic => "panoramic".to_owned(),
+            Projection::Omnimax => "omnimax".to_owned(),
+            Projection::Mesh(_) => "// mesh_camera, with the meshes of the scene".to_owned(),
             Projection::Spherical(across, high) => {
                 format!("spherical angle {}, {}", across.to_degrees(), high.to_degrees())
             }
             Projection::Cylinder { angle, vertical, moving } => {
-                let number = 1 + u32::from(!vertical) + 2 * u32::from(moving);
+                let number = 1 + u32::from(!*vertical) + 2 * u32::from(*moving);
                 format!("cylinder {number} angle {}", angle.to_degrees())
             }
         };
@@ -190,6 +192,17 @@ impl Rig {
             // Without negative zeros.
             let [x, y, z] = v.to_array().map(|c| if c == 0.0 { 0.0 } else { c });
             let _ = writeln!(text, "  {name} <{x}, {y}, {z}>");
+        }
+        if let Some(lens) = &c.lens {
+            let focal_point = c.location + c.direction * (lens.focus / c.direction.length());
+            let [x, y, z] = focal_point.to_array();
+            let [fewest, most] = lens.samples;
+            let _ = writeln!(text, "  aperture {} focal_point <{x}, {y}, {z}>", lens.aperture);
+            let _ = writeln!(text, "  blur_samples {fewest}, {most}");
+            let _ = writeln!(text, "  confidence {} variance {}", lens.confidence, lens.variance);
+        }
+        if c.normal.is_some() || c.lens.as_ref().is_some_and(|lens| lens.bokeh.is_some()) {
+            text.push_str("  // with the normal and the bokeh of the scene's camera\n");
         }
         text.push('}');
         text
@@ -251,6 +264,7 @@ mod tests {
     fn looking_at_a_point_puts_it_into_the_middle() {
         for projection in [Projection::Perspective, Projection::Orthographic] {
             for mirrored in [false, true] {
+                let projection = projection.clone();
                 let mut rig = rig(projection);
                 if mirrored {
                     rig.camera.right = -rig.camera.right;

@@ -199,7 +199,7 @@ impl Session {
         let mut stage = self.stage.write().unwrap_or_else(PoisonError::into_inner);
         let mut shared = self.shared();
         self.cancel.store(false, Ordering::Relaxed);
-        let camera = shared.rig.camera;
+        let camera = shared.rig.camera.clone();
         if shared.channel != Channel::Picture {
             // Measurements are written as they are, and pixels that hit nothing are clear.
             shared.new_film(self.file.size(), Encoding::Linear);
@@ -310,7 +310,7 @@ fn aa_name(aa: AntiAliasing) -> String {
 /// The scene's camera. It turns about the surface in the middle of the picture, or about the middle
 /// of the scene if there is nothing.
 fn first_rig(stage: &Stage) -> Rig {
-    let camera = stage.scene.camera.unwrap_or_default();
+    let camera = stage.scene.camera.clone().unwrap_or_default();
     let geometry = stage.world.geometry();
     let ray = Ray::new(camera.location, camera.direction);
     let bounds = geometry.bounds();
@@ -323,5 +323,6 @@ fn first_rig(stage: &Stage) -> Rig {
         }
         None => camera.location + camera.direction,
     };
-    Rig::new(camera, if pivot.is_finite() { pivot } else { camera.location + camera.direction })
+    let pivot = if pivot.is_finite() { pivot } else { camera.location + camera.direction };
+    Rig::new(camera, pivot)
 }

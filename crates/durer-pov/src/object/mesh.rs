@@ -19,6 +19,8 @@ pub(crate) struct Face {
     pub(crate) vertices: [u32; 3],
     pub(crate) normals: Option<[u32; 3]>,
     pub(crate) texture: Option<u32>,
+    /// The numbers of the texture coordinates at its corners.
+    pub(crate) uv: Option<[u32; 3]>,
 }
 
 /// Triangles over shared corners.
@@ -27,11 +29,9 @@ pub(crate) struct Mesh {
     pub(crate) vertices: Vec<[f64; 3]>,
     pub(crate) normals: Vec<[f64; 3]>,
     pub(crate) faces: Vec<Face>,
-    pub(crate) textures: Vec<Rc<Texture>>,
-    /// Texture coordinates.
+    /// The texture coordinates that faces may refer to.
     pub(crate) uv: Vec<[f64; 2]>,
-    /// The numbers of those of each face; as many as faces, or none.
-    pub(crate) uv_faces: Vec<Option<[u32; 3]>>,
+    pub(crate) textures: Vec<Rc<Texture>>,
     pub(crate) inside_vector: Option<[f64; 3]>,
     charge: Charge,
 }
@@ -42,9 +42,8 @@ impl Mesh {
             vertices: Vec::new(),
             normals: Vec::new(),
             faces: Vec::new(),
-            textures: Vec::new(),
             uv: Vec::new(),
-            uv_faces: Vec::new(),
+            textures: Vec::new(),
             inside_vector: None,
             charge: Charge::new(size_of::<Self>()),
         }
@@ -52,7 +51,7 @@ impl Mesh {
 
     fn bytes(&self) -> usize {
         (self.vertices.capacity() + self.normals.capacity()) * 24
-            + (self.uv.capacity() + self.uv_faces.capacity()) * 16
+            + self.uv.capacity() * 16
             + self.faces.capacity() * size_of::<Face>()
     }
 }
@@ -62,11 +61,11 @@ impl Mesh {
 struct Shared(HashMap<[u64; 3], u32>);
 
 impl Shared {
-    fn index(&mut self, v: [f64; 3], list: &mut Vec<[f64; 3]>) -> u32 {
+    fn index<T>(&mut self, v: [f64; 3], list: &mut Vec<T>, item: T) -> u32 {
         // Minus zero is zero.
         let key = v.map(|part| (part + 0.0).to_bits());
         *self.0.entry(key).or_insert_with(|| {
-            list.push(v);
+            list.push(item);
             (list.len() - 1) as u32
         })
     }
@@ -82,6 +81,7 @@ impl Parser<'_> {
     pub(super) fn mesh(&mut self) -> Result<Shape> {
         let mut mesh = Mesh::new();
         let (mut corners, mut normals) = (Shared::default(), Shared::default());
+        let mut coordinates = Shared::default();
         loop {
             let smooth = match self.peek_word()? {
                 Some(Keyword::Triangle) => false,
@@ -91,22 +91,26 @@ impl Parser<'_> {
             self.next()?;
             let place = self.here();
             self.expect(Mark::BraceOpen)?;
-            let mut face = Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None };
+            let mut face =
+                Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None, uv: None };
             for i in 0..3 {
-                face.vertices[i] = corners.index(self.corner()?, &mut mesh.vertices);
+                face.vertices[i] = {
+                    let corner = self.corner()?;
+                    corners.index(corner, &mut mesh.vertices, corner)
+                };
                 if let Some(at) = &mut face.normals {
                     let normal = self.normal("a normal of the triangle")?;
-                    at[i] = normals.index(normal, &mut mesh.normals);
+                    at[i] = normals.index(normal, &mut mesh.normals, normal);
                 }
             }
             if self.take_word(Keyword::UvVectors)? {
-                let first = mesh.uv.len() as u32;
-                for _ in 0..3 {
-                    mesh.uv.push(self.vector2()?);
+                let mut at = [0; 3];
+                for corner in &mut at {
+                    let uv = self.vector2()?;
+                    *corner = coordinates.index([uv[0], uv[1], 0.0], &mut mesh.uv, uv);
                     self.skip_comma()?;
                 }
-                mesh.uv_faces.resize(mesh.faces.len(), None);
-                mesh.uv_faces.push(Some([first, first + 1, first + 2]));
+                face.uv = Some(at);
             }
             if self.take_word(Keyword::Texture)? {
                 let texture = self.nested(Self::texture_block)?;
@@ -118,7 +122,8 @@ impl Parser<'_> {
             self.expect(Mark::BraceClose)?;
             mesh.faces.push(face);
             if mesh.faces.len().is_multiple_of(OFTEN) {
-                let index = (corners.0.capacity() + normals.0.capacity()) * SHARED_ENTRY;
+                let index =
+                    (corners.0.capacity() + normals.0.capacity() + coordinates.0.capacity()) * SHARED_ENTRY;
                 self.check_memory(mesh.bytes() + index, place)?;
             }
         }
@@ -183,7 +188,10 @@ impl Parser<'_> {
                 Keyword::UvIndices => {
                     self.next()?;
                     let count = mesh.uv.len();
-                    mesh.uv_faces = self.counted(16, |r| r.indices(count, "uv").map(Some))?;
+                    let lists = self.counted(12, |r| r.indices(count, "uv"))?;
+                    for (face, list) in mesh.faces.iter_mut().zip(lists) {
+                        face.uv = Some(list);
+                    }
                 }
                 _ => break,
             }
@@ -191,15 +199,17 @@ impl Parser<'_> {
         if !found {
             return Err(Error::invalid(self.here(), "this mesh2 has no face_indices"));
         }
-        // Without indices of their own, texture coordinates go with the corners.
-        if !mesh.uv.is_empty() && mesh.uv_faces.is_empty() {
-            let known = |face: &Face| face.vertices.iter().all(|&i| (i as usize) < mesh.uv.len());
-            mesh.uv_faces = mesh.faces.iter().map(|face| known(face).then_some(face.vertices)).collect();
-        }
         // A list as long as that of the corners goes with them.
         if mesh.normals.len() == mesh.vertices.len() {
             for face in &mut mesh.faces {
                 face.normals = face.normals.or(Some(face.vertices));
+            }
+        }
+        if mesh.faces.iter().all(|face| face.uv.is_none()) {
+            let count = mesh.uv.len();
+            for face in &mut mesh.faces {
+                let is_known = face.vertices.iter().all(|&i| (i as usize) < count);
+                face.uv = is_known.then_some(face.vertices);
             }
         }
         // A normal without length makes its face flat.
@@ -268,7 +278,7 @@ impl Parser<'_> {
                 }
                 texture = Some(first);
             }
-            Ok(Face { vertices, normals: None, texture })
+            Ok(Face { vertices, normals: None, texture, uv: None })
         })?;
         Ok(())
     }
@@ -281,12 +291,10 @@ impl Parser<'_> {
         if self.take_word(Keyword::InsideVector)? {
             mesh.inside_vector = Some(self.normal("the inside vector")?);
         }
-        if !mesh.uv_faces.is_empty() {
-            mesh.uv_faces.resize(mesh.faces.len(), None);
-        }
         mesh.vertices.shrink_to_fit();
         mesh.normals.shrink_to_fit();
         mesh.faces.shrink_to_fit();
+        mesh.uv.shrink_to_fit();
         mesh.charge.resize(mesh.bytes());
         self.check_memory(0, place)?;
         Ok(Shape::Mesh(Rc::new(mesh)))

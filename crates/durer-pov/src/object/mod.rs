@@ -159,6 +159,8 @@ pub(crate) struct Habits {
     pub(crate) inverse: bool,
     pub(crate) open: bool,
     pub(crate) double_illuminate: bool,
+    /// Whether it is a light group, and if so whether lights outside it light its objects.
+    pub(crate) light_group: Option<bool>,
 }
 
 /// A shape with its place and its look.
@@ -239,7 +241,10 @@ impl Object {
     fn holds_light(&self) -> bool {
         match &self.shape {
             Shape::Light(_) => true,
-            Shape::Union(parts) => parts.iter().any(|part| part.holds_light()),
+            // A light group's lights light its objects wherever these stand.
+            Shape::Union(parts) if self.habits.light_group.is_none() => {
+                parts.iter().any(|part| part.holds_light())
+            }
             _ => false,
         }
     }
@@ -302,6 +307,7 @@ pub(crate) fn begins_object(keyword: Keyword) -> bool {
             | Difference
             | Object
             | LightSource
+            | LightGroup
     )
 }
 
@@ -335,6 +341,12 @@ impl Parser<'_> {
                     none if none.is_empty() => Object::new(Shape::Nothing, place),
                     parts => Object::new(Shape::Union(parts), place),
                 },
+                Item::Word(Keyword::LightGroup) => {
+                    let parts = r.parts("light_group", place)?;
+                    let mut group = Object::new(Shape::Union(parts), place);
+                    group.habits.light_group = Some(false);
+                    group
+                }
                 Item::Word(Keyword::Merge) => r.combined(Operation::Merge, place)?,
                 Item::Word(Keyword::Intersection) => r.combined(Operation::Intersection, place)?,
                 Item::Word(Keyword::Difference) => r.combined(Operation::Difference, place)?,

@@ -58,6 +58,9 @@ impl Parser<'_> {
                 }
                 Keyword::Inverse => habits.inverse = !habits.inverse,
                 Keyword::Hollow => object.habits.hollow = self.switch_value()?,
+                Keyword::GlobalLights if habits.light_group.is_some() => {
+                    habits.light_group = Some(self.switch_value()?);
+                }
                 Keyword::DoubleIlluminate => object.habits.double_illuminate = self.switch_value()?,
                 Keyword::Open
                     if matches!(

@@ -4,24 +4,46 @@
 //!
 //! ```text
 //!   fisheye     t = (a/2) |(x |right|, y |up|)|, seen up to 1:  sin(t) (cos, sin)(angle in the picture), cos(t)
+//!   omnimax     phi = 1.411269 r - 0.094389 r^3 + 0.25674 r^5 from the direction of view, seen up to r = 1
 //!   ultra wide  (sin s, sin t, cos s cos t),  s = x a/2,  t = y (a/2) |up|/|right|
 //!   spherical   (sin s cos t, sin t, cos s cos t),  s = x h/2,  t = y v/2
 //!   panoramic   the same for h = v = 180 degrees, times (|right|, |up|, |direction|)
 //!   cylinder    (sin s, y |up|/2, cos s),  s = x a/2;  a horizontal one has x and y exchanged
 //! ```
+//!
+//! The polynomial of the Omnimax lens is that of N. Greene and P. S. Heckbert, "Creating raster
+//! Omnimax images from multiple perspective views using the elliptical weighted average filter",
+//! *IEEE Computer Graphics and Applications* 6 (1986) 21-27. Its picture ends 45 degrees below the
+//! direction of view, at `y = -0.558291`. With `k = |up|/|right|`, the picture covers `y` from
+//! `1 - 2 k` up to 1 if `k` is below 1, and from `-k` to `k` otherwise; if that ends within the
+//! lens's picture, `y` ends with it and `x` is widened. This was found from POV-Ray's pictures.
 
 use super::{CameraError, check};
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::FRAC_PI_2;
 use durer_math::lanes::LANES;
 use durer_math::{F8, Point3, Ray, Vec3, elementary};
 use durer_scene::Projection;
 
 use crate::vector::{length, unit};
 
+/// The kind of a [`Curved`] camera; see [`Projection`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Fisheye(f64),
+    UltraWideAngle(f64),
+    Spherical(f64, f64),
+    Panoramic,
+    Omnimax,
+    Cylinder { angle: f64, vertical: bool, moving: bool },
+}
+
+/// Where the picture of the Omnimax lens ends, 45 degrees below the direction of view.
+const OMNIMAX_END: f64 = 0.558_290_605_6;
+
 /// A camera whose picture is not a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curved {
-    projection: Projection,
+    kind: Kind,
     origin: Point3,
     /// To the right, up and forwards, with length 1.
     frame: [Vec3; 3],
@@ -35,12 +57,19 @@ impl Curved {
         let own = [camera.right, camera.up, camera.direction];
         let [right, up, direction] = own;
         check(camera.location, [("direction", direction), ("right vector", right), ("up vector", up)])?;
-        Ok(Self {
-            projection: camera.projection,
-            origin: camera.location,
-            frame: own.map(unit),
-            lengths: own.map(length),
-        })
+        let kind = match camera.projection {
+            Projection::Fisheye(angle) => Kind::Fisheye(angle),
+            Projection::UltraWideAngle(angle) => Kind::UltraWideAngle(angle),
+            Projection::Spherical(wide, high) => Kind::Spherical(wide, high),
+            Projection::Cylinder { angle, vertical, moving } => Kind::Cylinder { angle, vertical, moving },
+            Projection::Omnimax => Kind::Omnimax,
+            // The others have cameras of their own.
+            Projection::Panoramic
+            | Projection::Perspective
+            | Projection::Orthographic
+            | Projection::Mesh(_) => Kind::Panoramic,
+        };
+        Ok(Self { kind, origin: camera.location, frame: own.map(unit), lengths: own.map(length) })
     }
 
     /// The ray through the point `(px, py)` of the picture; its direction is zero where the picture
@@ -53,8 +82,8 @@ impl Curved {
             Vec3::new(sin_s * cos_t, sin_t, cos_s * cos_t)
         };
         let mut origin = self.origin;
-        let v = match self.projection {
-            Projection::Fisheye(angle) => {
+        let v = match self.kind {
+            Kind::Fisheye(angle) => {
                 let (x, y) = (x * right, y * up);
                 let from_middle = (x * x + y * y).sqrt();
                 if from_middle >= 1.0 {
@@ -65,17 +94,17 @@ impl Curved {
                     Vec3::new(x * k, y * k, cos)
                 }
             }
-            Projection::UltraWideAngle(angle) => {
+            Kind::UltraWideAngle(angle) => {
                 let (s, t) = (x * angle * 0.5, y * angle * 0.5 * up / right);
                 let ((sin_s, cos_s), (sin_t, cos_t)) = (elementary::sin_cos(s), elementary::sin_cos(t));
                 Vec3::new(sin_s, sin_t, cos_s * cos_t)
             }
-            Projection::Spherical(wide, high) => sphere(x * wide * 0.5, y * high * 0.5),
-            Projection::Panoramic => {
+            Kind::Spherical(wide, high) => sphere(x * wide * 0.5, y * high * 0.5),
+            Kind::Panoramic => {
                 let v = sphere(x * FRAC_PI_2, y * FRAC_PI_2);
                 Vec3::new(v.x * right, v.y * up, v.z * forwards)
             }
-            Projection::Cylinder { angle, vertical, moving } => {
+            Kind::Cylinder { angle, vertical, moving } => {
                 let (around, along, size) = if vertical { (x, y, up) } else { (y, x, right) };
                 let (sin, cos) = elementary::sin_cos(around * angle * 0.5);
                 let mut along = along * size * 0.5;
@@ -85,7 +114,7 @@ impl Curved {
                 }
                 if vertical { Vec3::new(sin, along, cos) } else { Vec3::new(along, sin, cos) }
             }
-            Projection::Perspective | Projection::Orthographic => Vec3::new(x, y, PI),
+            Kind::Omnimax => omnimax(x, y, up / right),
         };
         let [r, u, f] = self.frame;
         Ray::new(origin, r * v.x + u * v.y + f * v.z)
@@ -111,4 +140,24 @@ impl Curved {
             self.frame[1] * (self.lengths[1] * 0.5),
         ]
     }
+}
+
+/// The direction to the right, up and forwards of a point of the Omnimax picture; zero where it
+/// shows nothing. `k` is the height of the picture in units of its width.
+fn omnimax(x: f64, y: f64, k: f64) -> Vec3 {
+    let half = 0.5 * (1.0 + OMNIMAX_END);
+    let (x, y) = if k >= 1.0 {
+        (x, y * k)
+    } else if k >= half {
+        (x, y * k + (1.0 - k))
+    } else {
+        (x * half / k, y * half + (1.0 - half))
+    };
+    let r = (x * x + y * y).sqrt();
+    let square = r * r;
+    let angle = r * (1.411_269 + square * (-0.094_389 + square * 0.256_74));
+    let (sin, cos) = elementary::sin_cos(angle);
+    let aside = if r > 0.0 { sin / r } else { 0.0 };
+    let v = Vec3::new(x * aside, y * aside, cos);
+    if r > 1.0 || v.y + v.z < 0.0 { Vec3::ZERO } else { v }
 }

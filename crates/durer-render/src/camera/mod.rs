@@ -7,14 +7,24 @@
 //! `sy` to the middle of its *lower* side.
 
 mod curved;
+mod lens;
+mod mesh;
+mod modified;
 mod orthographic;
 mod perspective;
+mod uv_grid;
 
 pub use self::curved::Curved;
+pub(crate) use self::lens::{RenderLens, Samples};
+pub use self::mesh::MeshRays;
+pub use self::modified::Modified;
 pub use self::orthographic::Orthographic;
 pub use self::perspective::Perspective;
 
-use durer_math::{F8, Point3, Ray, Vec3};
+use std::sync::Arc;
+
+use durer_math::lanes::LANES;
+use durer_math::{AffineError, F8, Point3, Ray, Vec3};
 use durer_scene::Projection;
 
 /// Why a camera cannot be built.
@@ -31,10 +41,13 @@ pub enum CameraError {
     /// A vector has no length.
     #[error("camera: the {0} must not be zero")]
     Zero(&'static str),
+    /// The transformation of its normal or of its bokeh is singular or not finite.
+    #[error("camera: a texture's transformation: {0}")]
+    Texture(#[from] AffineError),
 }
 
 /// A camera of any kind.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Camera {
     /// A pinhole camera: all rays start at one point.
     Perspective(Perspective),
@@ -42,6 +55,20 @@ pub enum Camera {
     Orthographic(Orthographic),
     /// A camera whose picture is not a plane.
     Curved(Curved),
+    /// A camera whose rays start at the faces of meshes.
+    Mesh(Arc<MeshRays>),
+    /// A camera with a lens, or whose rays are perturbed.
+    Modified(Arc<Modified>),
+}
+
+/// How many rays are sent for a place of the picture.
+pub(crate) enum Sampling<'a> {
+    /// One.
+    Once,
+    /// As many as a mesh camera has faces for the place.
+    Faces(&'a MeshRays),
+    /// As many as a lens needs.
+    Lens(&'a RenderLens),
 }
 
 impl Camera {
@@ -49,21 +76,47 @@ impl Camera {
     pub fn new(camera: &durer_scene::Camera) -> Result<Self, CameraError> {
         let (o, f) = (camera.location, camera.direction);
         let (sx, sy) = (camera.right * 0.5, camera.up * -0.5);
-        Ok(match camera.projection {
+        let base = match &camera.projection {
             Projection::Perspective => Self::Perspective(Perspective::new(o, f, sx, sy)?),
             Projection::Orthographic => Self::Orthographic(Orthographic::new(o, f, sx, sy)?),
+            Projection::Mesh(mesh) => Self::Mesh(Arc::new(MeshRays::new(mesh, o, f))),
             _ => Self::Curved(Curved::new(camera)?),
+        };
+        Ok(match Modified::new(&base, camera)? {
+            Some(modified) => Self::Modified(Arc::new(modified)),
+            None => base,
         })
     }
 
-    /// The ray through the point `(px, py)` of the picture.
+    /// The ray with this number through a place in pixels of a picture of the given size; its
+    /// direction is zero where the picture shows nothing. Cameras that send one ray for each place
+    /// have no others.
     #[inline]
-    pub fn ray(&self, px: f64, py: f64) -> Ray {
+    pub(crate) fn numbered(&self, x: f64, y: f64, number: u32, picture: (u32, u32)) -> Ray {
+        let (px, py) = (on_picture(x, picture.0), on_picture(y, picture.1));
         match self {
             Self::Perspective(camera) => camera.ray(px, py),
             Self::Orthographic(camera) => camera.ray(px, py),
             Self::Curved(camera) => camera.ray(px, py),
+            Self::Mesh(camera) => {
+                camera.ray(x, y, number, picture).unwrap_or(Ray::new(Point3::ORIGIN, Vec3::ZERO))
+            }
+            Self::Modified(camera) => camera.ray(x, y, number, picture),
         }
+    }
+
+    /// How many rays are sent for a place.
+    pub(crate) fn sampling(&self) -> Sampling<'_> {
+        match self {
+            Self::Mesh(camera) if camera.rays_per_place() > 1 => Sampling::Faces(camera),
+            Self::Modified(camera) => camera.lens.as_ref().map_or(Sampling::Once, Sampling::Lens),
+            _ => Sampling::Once,
+        }
+    }
+
+    /// The end of its rays.
+    pub(crate) fn t_max(&self) -> f64 {
+        if let Self::Mesh(camera) = self { camera.t_max } else { f64::INFINITY }
     }
 
     /// The sum of the magnitudes of the coordinates from which the starts of rays are computed.
@@ -73,25 +126,44 @@ impl Camera {
             Self::Perspective(camera) => sum(camera.origin().to_vec()),
             Self::Orthographic(camera) => camera.start_terms().map(sum).into_iter().sum(),
             Self::Curved(camera) => camera.start_terms().map(sum).into_iter().sum(),
+            Self::Mesh(camera) => camera.start_size(),
+            Self::Modified(camera) => camera.base().start_size(),
         }
     }
 
-    /// The rays through some points of a picture of the given size. The points are in pixels from
-    /// the top left.
+    /// The rays with these numbers through some points of a picture of the given size. The points
+    /// are in pixels from the top left.
     #[inline(always)]
-    pub(crate) fn rays(&self, x: F8, y: F8, (width, height): (u32, u32)) -> (Point3<F8>, Vec3<F8>) {
+    pub(crate) fn rays(
+        &self,
+        (x, y, numbers): (F8, F8, [u32; LANES]),
+        (width, height): (u32, u32),
+    ) -> (Point3<F8>, Vec3<F8>) {
         let (px, py) = (on_picture_lanes(x, width), on_picture_lanes(y, height));
         match self {
             Self::Perspective(camera) => camera.rays(px, py),
             Self::Orthographic(camera) => camera.rays(px, py),
             Self::Curved(camera) => camera.rays(px, py),
+            Self::Mesh(_) | Self::Modified(_) => self.each((x, y, numbers), (width, height)),
         }
+    }
+
+    /// [`Camera::rays`], one after the other.
+    fn each(&self, (x, y, numbers): (F8, F8, [u32; LANES]), picture: (u32, u32)) -> (Point3<F8>, Vec3<F8>) {
+        let mut origin = Vec3::<F8>::splat(Vec3::ZERO);
+        let mut direction = origin;
+        for (i, number) in numbers.into_iter().enumerate() {
+            let ray = self.numbered(x.0[i], y.0[i], number, picture);
+            origin.set_lane(i, ray.origin.to_vec());
+            direction.set_lane(i, ray.direction);
+        }
+        (origin.to_point(), direction)
     }
 
     /// The ray through the middle of the pixel in column `x` and row `y` of a picture of `width` by
     /// `height` pixels.
     pub fn pixel(&self, x: u32, y: u32, width: u32, height: u32) -> Ray {
-        self.ray(on_picture(f64::from(x) + 0.5, width), on_picture(f64::from(y) + 0.5, height))
+        self.numbered(f64::from(x) + 0.5, f64::from(y) + 0.5, 0, (width, height))
     }
 }
 
@@ -147,9 +219,9 @@ mod tests {
             let camera = Camera::new(&block).unwrap();
             let x = F8([0.5, 1.5, 2.25, 3.0, 99.5, 7.1, 0.0, 160.0]);
             let y = F8([0.5, 0.5, 17.25, 3.0, 11.5, 7.9, 0.0, 120.0]);
-            let (origin, direction) = camera.rays(x, y, (160, 120));
+            let (origin, direction) = camera.rays((x, y, [0; LANES]), (160, 120));
             for i in 0..8 {
-                let ray = camera.ray(on_picture(x.0[i], 160), on_picture(y.0[i], 120));
+                let ray = camera.numbered(x.0[i], y.0[i], 0, (160, 120));
                 assert_eq!(
                     (origin.to_vec().lane(i).to_point(), direction.lane(i)),
                     (ray.origin, ray.direction)

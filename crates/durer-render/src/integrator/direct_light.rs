@@ -3,18 +3,15 @@
 use super::layers::{Coats, Lit};
 use super::record::Record;
 use super::shading_point::Spot;
-use super::shadow::Shadows;
+use super::shadow::{Shade, Shadows};
 use crate::lanes::Rgb8;
 use crate::light::{Area, Beamed, RenderLight};
 use crate::material::{Finish, Incidence, View};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
-use crate::texture::Stir;
 use crate::vector::dot;
-use crate::world::World;
-use core::f64::consts::TAU;
-use durer_math::{F8, Isa, M8, Point3, elementary};
-use durer_scene::Irid;
+use crate::world::{Look, World};
+use durer_math::{F8, Isa, M8, Point3};
 
 /// Computes the direct light on shading points.
 #[derive(Default)]
@@ -42,42 +39,39 @@ struct Falling {
 }
 
 impl<'w> Lamps<'w> {
-    /// Adds the light of all lights, scattered by the layers, to the spots. If `double` is set,
-    /// light from behind counts like light from the front. The rays came in `media`;
-    /// `node` is their number in the record.
+    /// Adds the light of all lights that light surfaces with this look, scattered by the layers, to
+    /// the spots. The rays came in `media`; `node` is their number in the record.
     pub(super) fn light(
         &mut self,
         (world, isa): (&'w World, Isa),
-        (coats, double): (&Coats<'_>, bool),
+        (coats, look): (&Coats<'_>, &Look),
         (media, node): (&[u32], u32),
         spots: &mut [Spot],
         (stop, record): (&Progress<'_>, &mut Option<Box<Record>>),
         counts: &mut RayCounts,
     ) {
+        let double = look.double_illuminate;
         let behind = double || coats.finishes.iter().any(|f| f.lit_from_behind());
         for (number, lamp) in world.lamps.iter().enumerate() {
             if stop.is_cancelled() {
                 return;
             }
+            if !world.lights(number, look) {
+                continue;
+            }
+            if let Some(area) = lamp.area.as_ref().filter(|_| lamp.illuminates) {
+                let how = ((world, isa), (coats, (double, behind)), media);
+                self.light_from_all(how, (lamp, area), spots, stop, counts);
+                if let Some(record) = record {
+                    record.light(node, number, spots, &self.unblocked, self.shadows.light());
+                }
+                self.collect(isa, spots);
+                continue;
+            }
             // The steps are small, and each leaves its results in memory: in large steps the
             // compiler mixes the lanes.
-            self.fall(isa, lamp, (double, behind), spots);
-            for (k, finish) in coats.finishes.iter().enumerate() {
-                if let Some((views, _)) = coats.bent(k) {
-                    self.turn(views, behind);
-                }
-                let before: Vec<Rgb8> = match finish.irid {
-                    Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
-                    None => Vec::new(),
-                };
-                self.scatter(isa, finish, coats.lit(k));
-                if finish.shines() && !lamp.shadowless {
-                    self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
-                }
-                if let Some(irid) = &finish.irid {
-                    self.iridesce((irid, finish.stirred.as_deref()), &before, coats.bent(k), spots);
-                }
-            }
+            self.fall(isa, lamp, None, (double, behind), spots);
+            self.shine(isa, lamp, (coats, behind), spots);
             self.aim(isa, lamp, spots);
             if record.is_some() {
                 self.unblocked.clear();
@@ -85,21 +79,82 @@ impl<'w> Lamps<'w> {
                 self.unblocked.extend(places.map(|to| (*to.light, *to.target)));
             }
             match &lamp.area {
-                None => self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts),
-                Some(area) => self.soften((world, isa), area, media, spots, stop, counts),
+                None => {
+                    if let Some(through) = &lamp.through {
+                        self.shadows.project(&through.geometry, lamp.shadowless);
+                    }
+                    self.shadows.cast((world, isa), lamp.end.as_ref(), media, stop, counts);
+                }
+                Some(area) => self.soften((world, isa), (lamp, area), media, spots, stop, counts),
             }
             if let Some(record) = record {
                 record.light(node, number, spots, &self.unblocked, self.shadows.light());
             }
-            isa.run_in_lanes(
-                #[inline(always)]
-                || {
-                    for (spot, light) in spots.iter_mut().zip(self.shadows.light()) {
-                        spot.sum += *light;
-                    }
-                },
-            );
+            self.collect(isa, spots);
         }
+    }
+
+    /// Computes what all layers scatter of a light that has fallen on spots, without its colour.
+    fn shine(&mut self, isa: Isa, lamp: &RenderLight, (coats, behind): (&Coats<'_>, bool), spots: &[Spot]) {
+        for (k, finish) in coats.finishes.iter().enumerate() {
+            if let Some((views, _)) = coats.bent(k) {
+                self.turn(views, behind);
+            }
+            let before: Vec<Rgb8> = match finish.irid {
+                Some(_) => self.shadows.places(spots.len()).map(|to| *to.light).collect(),
+                None => Vec::new(),
+            };
+            self.scatter(isa, finish, coats.lit(k));
+            if finish.shines() && !lamp.shadowless {
+                self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
+            }
+            if finish.irid.is_some() {
+                self.iridesce(finish, &before, coats.bent(k), spots);
+            }
+        }
+    }
+
+    /// Computes the light of an area light that lights surfaces from all its points: the mean of
+    /// their light, in the shadows of any area light (a fact of the scene language).
+    fn light_from_all(
+        &mut self,
+        ((world, isa), how, media): ((&'w World, Isa), (&Coats<'_>, (bool, bool)), &[u32]),
+        (lamp, area): (&RenderLight, &Area),
+        spots: &mut [Spot],
+        stop: &Progress<'_>,
+        counts: &mut RayCounts,
+    ) {
+        let mut sums = vec![Rgb8::BLACK; spots.len()];
+        let weight = F8::splat(1.0 / area.len() as f64);
+        for number in 0..area.len() {
+            self.fall(isa, lamp, Some((area, number)), how.1, spots);
+            self.shine(isa, lamp, (how.0, how.1.1), spots);
+            self.aim(isa, lamp, spots);
+            for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
+                *sum += *light * weight;
+            }
+        }
+        self.fall(isa, lamp, None, how.1, spots);
+        self.unblocked.clear();
+        let places = self.shadows.places(spots.len());
+        for (((to, light), falling), spot) in places.zip(sums).zip(&self.falling).zip(&*spots) {
+            self.unblocked.push((light, *to.target));
+            *to.light = light;
+            send(to, spot, !light.is_black() & spot.live & falling.blockable);
+        }
+        self.soften((world, isa), (lamp, area), media, spots, stop, counts);
+    }
+
+    /// Adds the light to the spots.
+    fn collect(&self, isa: Isa, spots: &mut [Spot]) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                for (spot, light) in spots.iter_mut().zip(self.shadows.light()) {
+                    spot.sum += *light;
+                }
+            },
+        );
     }
 
     /// Reduces the light by the shadows of all points of an area light. Where those looked at first
@@ -107,7 +162,7 @@ impl<'w> Lamps<'w> {
     fn soften(
         &mut self,
         (world, isa): (&'w World, Isa),
-        area: &Area,
+        (lamp, area): (&RenderLight, &Area),
         media: &[u32],
         spots: &[Spot],
         stop: &Progress<'_>,
@@ -144,6 +199,9 @@ impl<'w> Lamps<'w> {
                 (rays.origin, rays.direction) = (origin, *target - origin);
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
             }
+            if let Some(through) = &lamp.through {
+                self.shadows.project(&through.geometry, false);
+            }
             self.shadows.cast((world, isa), None, media, stop, counts);
             for (i, light) in self.shadows.light().iter().enumerate() {
                 let light = light.kept(needed[i]);
@@ -163,8 +221,15 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Computes how a light falls on spots, before anything is scattered.
-    fn fall(&mut self, isa: Isa, lamp: &RenderLight, (double, behind): (bool, bool), spots: &[Spot]) {
+    /// Computes how a light, or one point of its area, falls on spots, before anything is scattered.
+    fn fall(
+        &mut self,
+        isa: Isa,
+        lamp: &RenderLight,
+        point: Option<(&Area, usize)>,
+        (double, behind): (bool, bool),
+        spots: &[Spot],
+    ) {
         let falling = &mut self.falling;
         falling.clear();
         let places = self.shadows.places(spots.len());
@@ -172,8 +237,11 @@ impl<'w> Lamps<'w> {
             #[inline(always)]
             || {
                 for (spot, to) in spots.iter().zip(places) {
-                    let Beamed { lit, to_light, strength, target, blockable } =
-                        lamp.at(spot.hits.p, spot.live);
+                    let beamed = match point {
+                        None => lamp.at(spot.hits.p, spot.live),
+                        Some((area, number)) => lamp.at_from_point(area, number, spot.hits.p, spot.live),
+                    };
+                    let Beamed { lit, to_light, strength, target, blockable } = beamed;
                     let cosine = dot(to_light, spot.view.normal);
                     let lit = lit & !strength.equals(F8::ZERO);
                     let live = if behind { lit } else { lit & !cosine.le(F8::ZERO) };
@@ -234,32 +302,16 @@ impl<'w> Lamps<'w> {
     }
 
     /// Multiplies what a layer added to the light by the interference of a thin film.
-    fn iridesce(
-        &mut self,
-        (irid, stirred): (&Irid, Option<&Stir>),
-        before: &[Rgb8],
-        bent: Option<Bent<'_>>,
-        spots: &[Spot],
-    ) {
+    fn iridesce(&mut self, finish: &Finish, before: &[Rgb8], bent: Option<Bent<'_>>, spots: &[Spot]) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         for (i, ((Falling { at, .. }, to), before)) in falling.iter().zip(places).zip(before).enumerate() {
             let view = bent.map_or(&spots[i].view, |(views, _)| &views[i]);
             let mut light = *to.light;
-            let thickness = match stirred {
-                None => F8::splat(irid.thickness),
-                Some(stir) => {
-                    let varied = stir.scalar(spots[i].hits.p) * 2.0 - F8::ONE;
-                    (varied * irid.turbulence + F8::ONE) * irid.thickness
-                }
-            };
+            let way = at.cosine.abs() + view.cosine.abs();
+            let factor = finish.interference(spots[i].hits.p, way, at.live);
             for lane in at.live.lanes() {
-                let way = at.cosine.0[lane].abs() + view.cosine.0[lane].abs();
-                let factor = |wavelength: f64| {
-                    let turns = thickness.0[lane] * way / wavelength;
-                    1.0 + irid.amount * elementary::cos(TAU * turns)
-                };
                 let (old, new) = (before.lane(lane), light.lane(lane));
-                light.set_lane(lane, old + (new + old * -1.0) * irid.wavelength.map(factor));
+                light.set_lane(lane, old + (new + old * -1.0) * factor.lane(lane));
             }
             *to.light = light;
         }
@@ -277,15 +329,21 @@ impl<'w> Lamps<'w> {
                 {
                     let needed = *lit & !to.light.is_black();
                     *to.light = (Rgb8::splat(lamp.colour) * *strength * *to.light).kept(needed);
-                    let rays = to.rays;
-                    rays.live = needed & *blockable;
-                    if rays.live.any() {
-                        let (origin, back) = spot.hits.start_towards(*to.target - spot.hits.p);
-                        (rays.origin, rays.direction) = (origin, *to.target - origin);
-                        (rays.t_max, rays.source) = (F8::ONE, spot.hits.sources(back));
-                    }
+                    send(to, spot, needed & *blockable);
                 }
             },
         );
+    }
+}
+
+/// Aims shadow rays from a spot at the target.
+#[inline(always)]
+fn send(to: Shade<'_>, spot: &Spot, live: M8) {
+    let rays = to.rays;
+    rays.live = live;
+    if live.any() {
+        let (origin, back) = spot.hits.start_towards(*to.target - spot.hits.p);
+        (rays.origin, rays.direction) = (origin, *to.target - origin);
+        (rays.t_max, rays.source) = (F8::ONE, spot.hits.sources(back));
     }
 }

@@ -141,7 +141,12 @@ impl<'w> Coats<'w> {
                 self.grind(coat.finish.crand, draws, spots);
             }
             match coat.finish.mirror.as_deref() {
-                Some(mirror) => self.mirror(isa, (mirror, coat.finish.conserve_energy), border, spots),
+                Some(mirror) => {
+                    self.mirror(isa, (mirror, coat.finish.conserve_energy), border, spots);
+                    if coat.finish.irid.is_some() {
+                        self.iridesce(&coat.finish, spots);
+                    }
+                }
                 None => self.pass(isa, spots),
             }
         }
@@ -272,6 +277,17 @@ impl<'w> Coats<'w> {
                 }
             },
         );
+    }
+
+    /// Multiplies the reflection that was recorded last by the interference of a thin film: the way
+    /// through the film to the mirrored direction is as long as that from it.
+    fn iridesce(&mut self, finish: &Finish, spots: &[Spot]) {
+        let first = self.mirrored.len() - self.spots;
+        for ((mirrored, spot), live) in self.mirrored[first..].iter_mut().zip(spots).zip(&self.live) {
+            let way = spot.view.cosine.abs() * 2.0;
+            let factor = finish.interference(spot.hits.p, way, *live);
+            mirrored.reflectance = mirrored.reflectance * factor;
+        }
     }
 
     /// The data of scattering layer `k` at each spot.

@@ -9,6 +9,7 @@ mod record;
 mod secondary;
 mod shading_point;
 mod shadow;
+mod view;
 mod whitted;
 
 pub use self::record::{RayKind, RayTree, ShadowRay, TracedRay};

@@ -216,6 +216,14 @@ fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
     (weight, !weight.lt(F8::splat(world.adc_bailout)))
 }
 
+/// The normal at which rays are bent: a perturbed normal that points away from the eye is turned
+/// round (a fact of the scene language).
+#[inline(always)]
+fn facing(spot: &Spot) -> Vec3<F8> {
+    let turned_away = F8::ZERO.lt(dot(spot.view.eye, spot.view.normal));
+    turned_away.select3(spot.view.normal * F8::splat(-1.0), spot.view.normal)
+}
+
 /// The direction behind the surface, and the lanes where light passes.
 #[inline(always)]
 fn passing(world: &World, border: &Interface, spot: &Spot) -> (Vec3<F8>, M8) {
@@ -223,7 +231,7 @@ fn passing(world: &World, border: &Interface, spot: &Spot) -> (Vec3<F8>, M8) {
     if border.ratio == 1.0 {
         return (spot.view.eye, open);
     }
-    let (bent, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
+    let (bent, passes) = refract(spot.view.eye, facing(spot), border.ratio);
     (bent, open & passes)
 }
 
@@ -233,7 +241,7 @@ fn totally_reflected(world: &World, border: &Interface, spot: &Spot) -> M8 {
     if border.ratio == 1.0 {
         return M8::NONE;
     }
-    let (_, passes) = refract(spot.view.eye, spot.view.normal, border.ratio);
+    let (_, passes) = refract(spot.view.eye, facing(spot), border.ratio);
     open(world, spot) & !passes
 }
 

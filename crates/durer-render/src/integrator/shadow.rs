@@ -11,7 +11,7 @@ use crate::stats::RayCounts;
 use crate::texture::Around8;
 use crate::vector::{dot, length};
 use crate::world::{Look, World};
-use durer_geometry::{CandidateList, Hits8, Rays8, Scratch};
+use durer_geometry::{CandidateList, Geometry, Hits8, Rays8, Scratch};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Isa, M8, Point3};
 use durer_scene::mask;
@@ -72,6 +72,29 @@ impl<'w> Shadows<'w> {
     /// The light that reaches the points.
     pub(super) fn light(&self) -> &[Rgb8] {
         &self.light
+    }
+
+    /// Takes the light from points whose rays do not hit the object through which a light shines,
+    /// and ends the rays of the others there. A light without shadows has no rays left.
+    pub(super) fn project(&mut self, through: &Geometry, shadowless: bool) {
+        // The sources of the rays belong to another geometry.
+        let rays: Vec<Rays8> =
+            self.rays.iter().map(|rays| Rays8 { source: Rays8::NONE.source, ..*rays }).collect();
+        let mut hits = vec![Hits8::NONE; rays.len()];
+        see(through, &rays, mask::SHAPE, &mut hits, &mut self.scratch);
+        let ends = self.rays.iter_mut().zip(&mut self.targets);
+        for (((rays, target), light), hits) in ends.zip(&mut self.light).zip(&hits) {
+            *light = light.kept(!(rays.live & !hits.hit));
+            rays.live &= hits.hit;
+            let end = rays.origin + rays.direction * hits.t;
+            for i in rays.live.lanes() {
+                (target.x.0[i], target.y.0[i], target.z.0[i]) = (end.x.0[i], end.y.0[i], end.z.0[i]);
+                rays.direction.set_lane(i, end.to_vec().lane(i) - rays.origin.to_vec().lane(i));
+            }
+            if shadowless {
+                rays.live = M8::NONE;
+            }
+        }
     }
 
     /// Reduces the light by what is in the way: opaque surfaces block it all, clear surfaces block

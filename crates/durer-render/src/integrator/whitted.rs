@@ -23,7 +23,7 @@ use super::record::{RayTree, Record};
 use super::secondary::{Onward, Part};
 use super::shading_point::{Spot, Spots, face, map_to_chart};
 use crate::camera::Camera;
-use crate::fog::{RenderFog, Ways, veil};
+use crate::fog::{Air, Ways, veil};
 use crate::lanes::Rgb8;
 use crate::material::Mirror;
 use crate::progress::Progress;
@@ -105,23 +105,25 @@ impl<'w> Whitted<'w> {
     pub(crate) fn record(&mut self, camera: &Camera, picture: (u32, u32), place: Place) -> Option<RayTree> {
         self.record = Some(Box::default());
         let mut colours = Vec::new();
-        let done = self.look(camera, picture, &[place], &mut colours);
+        let done = self.look_once(camera, picture, (&[place], &[]), &mut colours);
         let record = self.record.take();
         done?;
         Some(record?.finish(*colours.first()?))
     }
 
-    /// Computes the colours at some places of a picture of the given size, in their order. Returns
-    /// `None` if the work was cancelled.
-    pub(crate) fn look(
+    /// Computes the colours that one ray finds at each of some places of a picture of the given
+    /// size, in their order. The rays have these numbers, or 0 without any. Returns `None` if the
+    /// work was cancelled.
+    pub(super) fn look_once(
         &mut self,
         camera: &Camera,
         picture: (u32, u32),
-        places: &[Place],
+        (places, numbers): (&[Place], &[u32]),
         colours: &mut Vec<Rgb>,
     ) -> Option<()> {
         colours.clear();
-        for places in places.chunks(CAMERA_RAYS) {
+        for (part, places) in places.chunks(CAMERA_RAYS).enumerate() {
+            let numbers = numbers.get(part * CAMERA_RAYS..).unwrap_or_default();
             let sums = &mut self.sums;
             self.isa.run_in_lanes(
                 #[inline(always)]
@@ -131,7 +133,9 @@ impl<'w> Whitted<'w> {
                 },
             );
             for (i, places) in places.chunks(AT_A_TIME * LANES).enumerate() {
-                self.start(camera, picture, i * AT_A_TIME * LANES, places);
+                let first = i * AT_A_TIME * LANES;
+                let numbers = numbers.get(first..).unwrap_or_default();
+                self.start(camera, picture, first, (places, numbers));
             }
             self.tasks.extend(self.onward.take().map(Task::Follow));
             while let Some(task) = self.tasks.pop() {
@@ -164,7 +168,13 @@ impl<'w> Whitted<'w> {
 
     /// Starts the camera's rays at some places; their sums begin at `slot`. They form one bundle if
     /// all start in the same media.
-    fn start(&mut self, camera: &Camera, picture: (u32, u32), slot: usize, places: &[Place]) {
+    fn start(
+        &mut self,
+        camera: &Camera,
+        picture: (u32, u32),
+        slot: usize,
+        (places, numbers): (&[Place], &[u32]),
+    ) {
         self.counts.camera += places.len() as u64;
         let mut all = self.onward.empty();
         self.isa.run_in_lanes(
@@ -173,14 +183,19 @@ impl<'w> Whitted<'w> {
                 for (group, places) in places.chunks(LANES).enumerate() {
                     let (mut x, mut y) = (F8::splat(places[0].x), F8::splat(places[0].y));
                     let mut paths = Paths8::NONE;
+                    let mut of_lanes = [0; LANES];
                     for (i, place) in places.iter().enumerate() {
                         (x.0[i], y.0[i]) = (place.x, place.y);
                         // All bits of the position in the picture identify the ray.
                         paths.seed[i] = place.x.to_bits().rotate_left(32) ^ place.y.to_bits();
+                        if let Some(&number) = numbers.get(group * LANES + i) {
+                            of_lanes[i] = number;
+                            paths.seed[i] = paths.seed[i].wrapping_add(u64::from(number));
+                        }
                         paths.slot[i] = (slot + group * LANES + i) as u32;
                     }
-                    let (origin, direction) = camera.rays(x, y, picture);
-                    let (t_max, source) = (F8::splat(f64::INFINITY), Rays8::NONE.source);
+                    let (origin, direction) = camera.rays((x, y, of_lanes), picture);
+                    let (t_max, source) = (F8::splat(camera.t_max()), Rays8::NONE.source);
                     // Where the picture shows nothing, rays have no direction.
                     let size = direction.x.abs() + direction.y.abs() + direction.z.abs();
                     let live = M8::first(places.len()) & (F8::ZERO).lt(size);
@@ -303,7 +318,7 @@ impl<'w> Whitted<'w> {
             let spots = spots.gather(self.isa, part, (rays, paths), &self.hits);
             face(self.isa, spots);
             let world = self.world;
-            self.see_through_fog(world.fogs_in(&standing.media), standing.node, spots);
+            self.see_through_fog(world.air_in(&standing.media), standing.node, spots);
             let look = part[0].look(world);
             if let Some(chart) = look.chart {
                 map_to_chart(&world.charts[chart as usize], spots);
@@ -326,9 +341,9 @@ impl<'w> Whitted<'w> {
         if let Some(camera) = world.camera_end.filter(|_| standing.depth == 0) {
             camera.see_beyond(world.geometry(), standing.mask, rays, &mut self.hits);
         }
-        let fogs = world.fogs_in(&standing.media);
+        let air = world.air_in(&standing.media);
         if let Some(record) = &mut self.record {
-            let beyond = |rays: &Rays8, missed| beyond(world, fogs, rays, missed);
+            let beyond = |rays: &Rays8, missed| beyond(world, air, rays, missed);
             record.see(standing.node, rays, &self.hits, paths, beyond);
         }
         let (hits, sums, pieces) = (&self.hits, &mut self.sums, &mut self.pieces);
@@ -338,7 +353,7 @@ impl<'w> Whitted<'w> {
                 for (group, hits) in hits.iter().enumerate() {
                     let missed = rays[group].live & !hits.hit;
                     if missed.any() {
-                        let seen = beyond(world, fogs, &rays[group], missed);
+                        let seen = beyond(world, air, &rays[group], missed);
                         add(sums, &paths[group], seen, missed);
                     }
                     cut(world, group, &rays[group], hits, pieces);
@@ -348,16 +363,16 @@ impl<'w> Whitted<'w> {
         sort(&mut self.pieces);
     }
 
-    /// Adds the light of fog before spots, and dims what follows.
-    fn see_through_fog(&mut self, fogs: &[RenderFog], node: u32, spots: &mut [Spot]) {
-        if fogs.is_empty() {
+    /// Adds the light of fog and rainbows before spots, and dims what follows.
+    fn see_through_fog(&mut self, air: Air<'_>, node: u32, spots: &mut [Spot]) {
+        if air.is_clear() {
             return;
         }
         for spot in spots {
             let (direction, distance) = (spot.view.eye, spot.distance);
             let origin = spot.hits.p - direction * distance;
             let ways = Ways { origin, direction, distance, live: spot.live };
-            if let Some(veil) = veil(fogs, &ways) {
+            if let Some(veil) = veil(&air, &ways) {
                 add(&mut self.sums, &spot.paths, veil.added, spot.live);
                 if let Some(record) = &mut self.record {
                     record.add(node, spot, veil.added);
@@ -451,7 +466,7 @@ impl<'w> Whitted<'w> {
         let (world, isa, standing) = (self.world, self.isa, part.standing);
         self.coats.lay((world, isa), layers, &part.border, standing.draws, spots);
         if !self.coats.finishes.is_empty() {
-            let how = (&self.coats, part.look.double_illuminate);
+            let how = (&self.coats, part.look);
             let (state, watch) = ((&standing.media[..], standing.node), (&self.stop, &mut self.record));
             self.lamps.light((world, isa), how, state, spots, watch, &mut self.counts);
         }
@@ -472,16 +487,16 @@ impl<'w> Whitted<'w> {
     }
 }
 
-/// The light from beyond all surfaces, of the sky through fog, for rays that hit nothing.
+/// The light from beyond all surfaces, of the sky through fog and rainbows, for rays that hit nothing.
 #[inline(always)]
-fn beyond(world: &World, fogs: &[RenderFog], rays: &Rays8, missed: M8) -> Rgb8 {
+fn beyond(world: &World, air: Air<'_>, rays: &Rays8, missed: M8) -> Rgb8 {
     let seen = world.sky.seen(rays.direction, missed);
-    if fogs.is_empty() {
+    if air.is_clear() {
         return seen;
     }
     let direction = rays.direction * (F8::ONE / length(rays.direction));
     let ways = Ways { origin: rays.origin, direction, distance: F8::splat(f64::INFINITY), live: missed };
-    veil(fogs, &ways).map_or(seen, |veil| seen * veil.passed + veil.added)
+    veil(&air, &ways).map_or(seen, |veil| seen * veil.passed + veil.added)
 }
 
 /// Adds colours to their sums.

@@ -135,6 +135,7 @@ mod tests {
             circular: false,
             orient: false,
             adaptive: Some(0),
+            illuminates: false,
         };
         let area = Area::new(&area).unwrap();
         assert_eq!((area.first, area.len()), (4, 15));

@@ -10,7 +10,8 @@ use crate::ray_end::RayEnd;
 use crate::vector::{dot, length, unit};
 use durer_geometry::Geometry;
 use durer_math::{F8, M8, Point3, Vec3, elementary};
-use durer_scene::{Light, LightKind, Rgb, mask};
+use durer_scene::{Light, LightKind, LowerError, Lowered, Object, Rgb, Scene, mask};
+use std::sync::Arc;
 
 /// A light.
 #[derive(Clone, Debug)]
@@ -27,6 +28,12 @@ pub(crate) struct RenderLight {
     pub(crate) end: Option<RayEnd>,
     /// The points that throw its shadows, if there are several.
     pub(crate) area: Option<Area>,
+    /// Whether all points of its area light, not only its location.
+    pub(crate) illuminates: bool,
+    /// The object through which it shines.
+    pub(crate) through: Option<Arc<Lowered>>,
+    /// The number of its light group.
+    pub(crate) group: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -74,11 +81,15 @@ fn smooth_step(a: f64, b: f64, x: F8) -> F8 {
 impl RenderLight {
     /// Prepares a light. `None` for a light that is black, or that has a direction but points at
     /// its own location.
-    pub(crate) fn new(light: &Light) -> Option<Self> {
+    ///
+    /// # Errors
+    ///
+    /// Returns a [`LowerError`] if the object through which it shines cannot be built.
+    pub(crate) fn new(light: &Light) -> Result<Option<Self>, LowerError> {
         let way = light.point_at - light.location;
         let is_aimed = light.parallel || !matches!(light.kind, LightKind::Point);
         if light.colour.is_black() || is_aimed && length(way) < NO_DISTANCE {
-            return None;
+            return Ok(None);
         }
         let beam = match light.kind {
             LightKind::Point => Beam::All,
@@ -95,7 +106,14 @@ impl RenderLight {
             }
         };
         let tube = matches!(beam, Beam::Tube { .. });
-        Some(Self {
+        let through = match &light.through {
+            Some(object) => {
+                let objects = vec![Object::clone(object)];
+                Some(Arc::new(Scene { objects, ..Scene::default() }.lower_for_pictures()?))
+            }
+            None => None,
+        };
+        Ok(Some(Self {
             location: light.location,
             colour: light.colour,
             axis: unit(way),
@@ -108,13 +126,16 @@ impl RenderLight {
                 .map(|fade| (fade.distance, Power::new(fade.power))),
             end: None,
             area: light.area.as_ref().filter(|_| !light.shadowless).and_then(Area::new),
-        })
+            illuminates: light.area.as_ref().is_some_and(|area| area.illuminates),
+            through,
+            group: light.group,
+        }))
     }
 
     /// Sets `end` if a surface of the geometry may pass through the light.
     #[must_use]
     pub(crate) fn among(self, geometry: &Geometry) -> Self {
-        let end = if self.shadowless || self.area.is_some() {
+        let end = if self.shadowless || self.area.is_some() || self.through.is_some() {
             None
         } else if self.parallel {
             RayEnd::light_plane(geometry, self.location, self.axis)
@@ -127,7 +148,19 @@ impl RenderLight {
     /// The light at some points, without shadows.
     #[inline(always)]
     pub(crate) fn at(&self, p: Point3<F8>, live: M8) -> Beamed {
-        let location = Vec3::<F8>::splat(self.location.to_vec());
+        self.at_from(Vec3::<F8>::splat(self.location.to_vec()), p, live)
+    }
+
+    /// The light of one point of its area at some points, without shadows.
+    pub(crate) fn at_from_point(&self, area: &Area, number: usize, p: Point3<F8>, live: M8) -> Beamed {
+        let middle = Vec3::<F8>::splat(self.location.to_vec());
+        let offset = area.offset(number, self.at(p, live).to_light);
+        self.at_from(middle + offset, p, live)
+    }
+
+    /// The light at some points, from some locations.
+    #[inline(always)]
+    fn at_from(&self, location: Vec3<F8>, p: Point3<F8>, live: M8) -> Beamed {
         let axis = Vec3::<F8>::splat(self.axis);
         let from = p.to_vec() - location;
         let depth = dot(from, axis);
@@ -160,7 +193,9 @@ impl RenderLight {
             lit &= power.equals(power);
             strength = strength * (F8::splat(2.0) / (F8::ONE + power));
         }
-        let (target, blockable) = match (self.shadowless, self.parallel) {
+        // Only its shadow rays find the object through which a light shines.
+        let never = self.shadowless && self.through.is_none();
+        let (target, blockable) = match (never, self.parallel) {
             (true, _) => (location, M8::NONE),
             (false, false) => (location, lit),
             (false, true) => (p.to_vec() - axis * depth, lit & (F8::ZERO).lt(depth)),
@@ -184,7 +219,7 @@ mod tests {
     }
 
     fn strength(light: &Light, p: [f64; 3]) -> f64 {
-        let beamed = RenderLight::new(light).unwrap().at(point(p), M8::ALL);
+        let beamed = RenderLight::new(light).unwrap().unwrap().at(point(p), M8::ALL);
         beamed.lit.keep(beamed.strength).0[3]
     }
 
@@ -245,7 +280,7 @@ mod tests {
             let location = Point3::new(1.0, 0.0, 2.0);
             let point_at = Point3::new(1.0, away, 2.0);
             let light = Light { kind, parallel, point_at, ..Light::point(location, Rgb::WHITE) };
-            RenderLight::new(&light).is_some()
+            RenderLight::new(&light).unwrap().is_some()
         };
         let spot = LightKind::Spot { radius: 0.5, falloff: 0.7, tightness: 0.0 };
         let tube = LightKind::Cylinder { radius: 1.0, falloff: 2.0, tightness: 0.0 };
@@ -267,7 +302,7 @@ mod tests {
     #[test]
     fn parallel_light_is_blocked_only_up_to_its_plane() {
         let light = Light { parallel: true, ..down(LightKind::Point) };
-        let lamp = RenderLight::new(&light).unwrap();
+        let lamp = RenderLight::new(&light).unwrap().unwrap();
         let below = lamp.at(point([3.0, 0.0, 4.0]), M8::ALL);
         assert_eq!(below.to_light.lane(0), Vec3::Y);
         assert_eq!(below.target.to_vec().lane(0), Vec3::new(3.0, 10.0, 4.0));
@@ -280,6 +315,9 @@ mod tests {
     fn a_light_at_the_point_itself_does_not_shine() {
         let mut p = point([0.0, 10.0, 0.0]);
         p.x.0[2] = 1.0;
-        assert_eq!(RenderLight::new(&down(LightKind::Point)).unwrap().at(p, M8::ALL).lit.bits(), 0b100);
+        assert_eq!(
+            RenderLight::new(&down(LightKind::Point)).unwrap().unwrap().at(p, M8::ALL).lit.bits(),
+            0b100
+        );
     }
 }

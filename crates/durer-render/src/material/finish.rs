@@ -5,7 +5,8 @@ use crate::lanes::Rgb8;
 use crate::power::Power;
 use crate::texture::Stir;
 use crate::vector::{dot, reflect};
-use durer_math::{F8, M8, Vec3, elementary};
+use core::f64::consts::TAU;
+use durer_math::{F8, M8, Point3, Vec3, elementary};
 use durer_scene::{Irid, Octaves, Rgb, Turbulence};
 
 /// From this size on, Phong's highlight is cut off where its cosine is [`PHONG_END`] (a fact of the
@@ -169,6 +170,30 @@ impl Finish {
             let live = at.live & !shine.equals(F8::ZERO);
             tint(self.metallic, at.cosine, colour, live) * shine
         }
+    }
+}
+
+impl Finish {
+    /// The factors by which the interference of a thin film changes light at some points. `way` is
+    /// the sum of the cosines of the angles at which light comes and goes.
+    pub(crate) fn interference(&self, p: Point3<F8>, way: F8, live: M8) -> Rgb8 {
+        let mut factors = Rgb8::WHITE;
+        let Some(irid) = &self.irid else { return factors };
+        let thickness = match self.stirred.as_deref() {
+            None => F8::splat(irid.thickness),
+            Some(stir) => {
+                let varied = stir.scalar(p) * 2.0 - F8::ONE;
+                (varied * irid.turbulence + F8::ONE) * irid.thickness
+            }
+        };
+        for lane in live.lanes() {
+            let factor = |wavelength: f64| {
+                let turns = thickness.0[lane] * way.0[lane] / wavelength;
+                1.0 + irid.amount * elementary::cos(TAU * turns)
+            };
+            factors.set_lane(lane, irid.wavelength.map(factor));
+        }
+        factors
     }
 }
 

@@ -33,7 +33,7 @@ use crate::lanes::{Colour8, Rgb8};
 use crate::material::Finish;
 use cells::{Cutter, Kinds};
 use lookup::Lookup;
-use normal::RenderNormal;
+pub(crate) use normal::RenderNormal;
 use picture::Picture;
 
 /// The texture of a surface.

@@ -25,6 +25,8 @@ pub struct Look {
     pub medium: u32,
     /// Whether light from behind counts too.
     pub double_illuminate: bool,
+    /// The light group of the surface.
+    pub light_group: Option<u32>,
     /// Whether some light may pass.
     pub is_clear: bool,
     /// The look for rays along the normal, if it is different.
@@ -42,7 +44,8 @@ pub(super) struct PrimitiveLooks {
 }
 
 /// The addresses of a look's texture, frame and chart, and its other members.
-type LookKey = (*const Texture, *const Placement, Option<*const Chart>, u32, bool, Option<LookId>);
+type LookKey =
+    (*const Texture, *const Placement, Option<*const Chart>, u32, bool, Option<u32>, Option<LookId>);
 
 /// The looks of a scene, under construction.
 #[derive(Default)]
@@ -106,9 +109,10 @@ impl LookTable {
 
     /// The index of a look. Equal looks share one.
     pub(super) fn number(&mut self, look: Look) -> LookId {
-        let Look { texture, frame, medium, double_illuminate, inside, chart, .. } = &look;
+        let Look { texture, frame, medium, double_illuminate, light_group, inside, chart, .. } = &look;
         let chart = chart.as_ref().map(Arc::as_ptr);
-        let key = (Arc::as_ptr(texture), Arc::as_ptr(frame), chart, *medium, *double_illuminate, *inside);
+        let (texture, frame) = (Arc::as_ptr(texture), Arc::as_ptr(frame));
+        let key = (texture, frame, chart, *medium, *double_illuminate, *light_group, *inside);
         let looks = &mut self.looks;
         *self.known.entry(key).or_insert_with(|| {
             looks.push(look);

@@ -401,8 +401,9 @@ impl Lowering {
         let frame = if texture.is_uniform() { Arc::clone(&self.world) } else { frame };
         let is_clear = !texture.is_opaque();
         let chart = chart.clone().filter(|_| texture.needs_chart());
-        let double_illuminate = flags.double_illuminate;
-        self.table.number(Look { texture, frame, medium, double_illuminate, is_clear, inside, chart })
+        let Flags { double_illuminate, light_group, .. } = flags;
+        let look = Look { texture, frame, medium, double_illuminate, light_group, is_clear, inside, chart };
+        self.table.number(look)
     }
 
     /// The texture that applies, and its frame.

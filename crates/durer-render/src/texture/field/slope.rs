@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn values_are_those_of_the_scene_language() {
         let y = 8.0 / 9.0;
-        let (n, p) = (Vec3::new(0.0, y, -(1.0 - y * y).sqrt()), Point3::new(0.0, y, 0.0));
+        let (n, p) = (Vec3::new(0.0, y, -f64::sqrt(1.0 - y * y)), Point3::new(0.0, y, 0.0));
         let plain = Slope { to: SlopeTo::Direction(Vec3::Y * 3.0), range: [0.0, 1.0], altitude: None };
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-4, "{a} instead of {b}");
         close(at(&plain, n, p), 0.8485);
