@@ -41,6 +41,9 @@ pub(crate) struct Frame {
     pub(crate) names: Vec<(String, f64)>,
 }
 
+/// More frames than this no sequence may have: ten hours of film.
+const MOST_FRAMES: f64 = 1_000_000.0;
+
 impl FrameArgs {
     /// The pictures to be rendered; `None` without a sequence.
     pub(crate) fn frames(&self, output: &Path) -> Result<Option<Vec<Frame>>, Failure> {
@@ -57,8 +60,12 @@ impl FrameArgs {
         let number = |at: f64| if at < 1.0 { (at * count).floor() } else { at.floor() };
         let start = self.subset_start.map_or(f64::from(first), number).max(f64::from(first));
         let end = self.subset_end.map_or(f64::from(last), number).min(f64::from(last));
-        if !(start <= end) {
+        if start > end {
             return Err(Failure::Usage("the subset of the sequence has no frames".to_owned()));
+        }
+        if end - start >= MOST_FRAMES {
+            let text = format!("a sequence has at most {MOST_FRAMES} frames, this one {}", end - start + 1.0);
+            return Err(Failure::Usage(text));
         }
         let (from, to) = (self.initial_clock.unwrap_or(0.0), self.final_clock.unwrap_or(1.0));
         let reported = if self.cyclic { f64::from(last) + 1.0 } else { f64::from(last) };

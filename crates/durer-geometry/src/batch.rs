@@ -79,7 +79,7 @@ impl<'a> Masked<'a> {
     }
 }
 
-impl Batch<'_> {
+impl<'a> Batch<'a> {
     /// How many threads work; 0, the default, means those of the thread pool that this is called
     /// from, else all processors. Where the system refuses to start threads, that pool works.
     #[must_use]
@@ -102,17 +102,17 @@ impl Batch<'_> {
 
     /// [`Masked::all`] for each ray.
     pub fn all(&self) -> Ragged<Hit> {
-        self.ragged(|view, ray| view.all(ray))
+        self.ragged(Masked::all)
     }
 
     /// [`Masked::spans`] for each ray.
     pub fn spans(&self) -> Ragged<Span> {
-        self.ragged(|view, ray| view.spans(ray))
+        self.ragged(Masked::spans)
     }
 
     /// [`Masked::spans_by_object`] for each ray.
     pub fn spans_by_object(&self) -> Ragged<ObjectSpan> {
-        self.ragged(|view, ray| view.spans_by_object(ray))
+        self.ragged(Masked::spans_by_object)
     }
 
     /// One answer for each ray, in the order of the rays.
@@ -129,7 +129,7 @@ impl Batch<'_> {
     }
 
     /// Several answers for each ray, in the order of the rays.
-    fn ragged<T: Send>(&self, query: impl Fn(&Masked<'_>, &Ray) -> Vec<T> + Sync) -> Ragged<T> {
+    fn ragged<T: Send>(&self, query: impl Fn(&Masked<'a>, &Ray) -> Vec<T> + Sync) -> Ragged<T> {
         let part = |rays: &[Ray]| {
             let mut lengths = Vec::with_capacity(rays.len());
             let mut items = Vec::new();

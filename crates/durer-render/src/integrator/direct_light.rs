@@ -38,6 +38,10 @@ struct Falling {
     blockable: M8,
 }
 
+/// The layers that are lit; whether light falls on both sides of the surface; and whether on the side
+/// away from the eye.
+type LitCoats<'a, 'c> = (&'a Coats<'c>, (bool, bool));
+
 impl<'w> Lamps<'w> {
     /// Adds the light of all lights that light surfaces with this look, scattered by the layers, to
     /// the spots. The rays came in `media`; `node` is their number in the record.
@@ -118,7 +122,7 @@ impl<'w> Lamps<'w> {
     /// their light, in the shadows of any area light (a fact of the scene language).
     fn light_from_all(
         &mut self,
-        ((world, isa), how, media): ((&'w World, Isa), (&Coats<'_>, (bool, bool)), &[u32]),
+        ((world, isa), how, media): ((&'w World, Isa), LitCoats<'_, '_>, &[u32]),
         (lamp, area): (&RenderLight, &Area),
         spots: &mut [Spot],
         stop: &Progress<'_>,

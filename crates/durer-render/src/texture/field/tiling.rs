@@ -18,7 +18,7 @@ const H: f64 = 0.866_025_403_784_438_6;
 const Q: f64 = 2.414_213_562_373_095;
 const Q2: f64 = 0.5 * Q;
 /// Half the diagonal of a unit square.
-const R: f64 = 0.707_106_781_186_547_6;
+const R: f64 = core::f64::consts::FRAC_1_SQRT_2;
 
 /// A convex tile: its kind, and its corners against the clock, seen with x to the
 /// left and z up.
