@@ -161,7 +161,7 @@ impl Geometry {
     }
 
     /// Stores the first hit of each ray of some packets, with the answers of
-    /// [`Geometry::first_visible`]. `candidates` holds what these rays may hit, if that is known.
+    /// [`Masked::first_visible`](crate::Masked::first_visible). `candidates` holds what these rays may hit, if that is known.
     /// The contents of `scratch` do not matter.
     pub fn first_visible8(
         &self,
@@ -352,7 +352,7 @@ impl Geometry {
     }
 
     /// Stores which rays of some packets hit anything, with the answers of
-    /// [`Geometry::any_masked`].
+    /// [`Masked::any`](crate::Masked::any).
     pub fn any8(
         &self,
         beam: Option<&CandidateList>,
