@@ -128,7 +128,7 @@ fn the_place_is_underlined_and_the_way_there_told() {
     let lines: Vec<_> = error.lines().collect();
     assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: pavement"), "{error}");
     assert_eq!(lines[2], "3 |   sphere { 0, R pavement }");
-    assert_eq!(lines[3], "  |                 ^^^^^^");
+    assert_eq!(lines[3], "  |                 ^^^^^^^^");
     assert!(lines[4].contains("in macro Bad, called at") && lines[4].ends_with("scene.pov:6:1"), "{error}");
 }
 

@@ -177,9 +177,10 @@ mod tests {
     }
 
     /// The places of the faces that a row of the picture shows.
+    /// The whole numbers next to where the rays of a row start, which tell the faces.
     fn row(camera: &MeshRays, y: u32, number: u32, picture: (u32, u32)) -> Vec<Option<(f64, f64)>> {
         let ray = |x: u32| camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, number, picture);
-        (0..picture.0).map(|x| ray(x).map(|ray| (ray.origin.x, ray.origin.y))).collect()
+        (0..picture.0).map(|x| ray(x).map(|ray| (ray.origin.x.round(), ray.origin.y.round()))).collect()
     }
 
     #[test]
