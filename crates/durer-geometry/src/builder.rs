@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// let ball = Sphere::new(Point3::ORIGIN, 1.0)?;
 /// let scene = Geometry::builder().with(ball).build()?;
 /// let hit = scene.closest(&Ray::new(Point3::new(0.0, 0.0, -5.0), Vec3::Z)).unwrap();
-/// assert_eq!((hit.t, hit.sign, hit.object), (4.0, -1, 0));
+/// assert_eq!((hit.t, hit.sign, hit.object.0), (4.0, -1, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Default)]

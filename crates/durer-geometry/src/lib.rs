@@ -11,7 +11,7 @@
 //!
 //! let ray = Ray::new(Point3::new(0.0, 5.0, 0.0), -Vec3::Y);
 //! let hit = scene.closest(&ray).unwrap();
-//! assert_eq!((hit.object, hit.t), (0, 3.0)); // the ball's top
+//! assert_eq!((hit.object.0, hit.t), (0, 3.0)); // the ball's top
 //! assert!(hit.t_lo <= hit.t && hit.t <= hit.t_hi); // the exact crossing is in there
 //!
 //! let all = scene.all(&ray); // every crossing, once, ascending

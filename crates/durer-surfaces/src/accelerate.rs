@@ -1,5 +1,4 @@
-//! What a tree, CSG and packets of rays may ask of a surface to become faster. No answer depends on
-//! it.
+//! How the tree, CSG and packets of rays find a surface faster. No answer depends on it.
 
 use crate::packet::FilterSource;
 use crate::{HalfSpace, LocalRay, Sink, Surface};

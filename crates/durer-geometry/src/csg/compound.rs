@@ -27,7 +27,7 @@ use durer_surfaces::{Accelerate, LocalPoint, Side, Solidity};
 ///
 /// assert!(scene.closest(&Ray::new(Point3::new(0.0, 0.0, -5.0), Vec3::Z)).is_none());
 /// let corner = scene.closest(&Ray::new(Point3::new(0.9, 0.9, -5.0), Vec3::Z)).unwrap();
-/// assert_eq!((corner.t, corner.primitive), (4.0, 0)); // the cube is the first leaf
+/// assert_eq!((corner.t, corner.primitive.0), (4.0, 0)); // the cube is the first leaf
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Compound {

@@ -160,7 +160,7 @@ impl Parser<'_> {
             match &lexeme.item {
                 Item::Mark(Mark::BraceClose) => break,
                 Item::Word(Keyword::Thickness) => film.thickness = self.float()?,
-                // Of a vector, the first part counts (a fact of the language).
+                // The first component of a vector counts (a fact of the language).
                 Item::Word(Keyword::Turbulence) => film.turbulence = self.vector()?[0],
                 _ => return Err(self.unexpected(&lexeme, "a part of irid")),
             }

@@ -35,7 +35,7 @@ pub(crate) struct Finish {
     pub(crate) mirror: Option<Box<Mirror>>,
     pub(crate) conserve_energy: bool,
     pub(crate) irid: Option<Irid>,
-    /// What the thickness of the film varies by.
+    /// The noise that changes the film's thickness from place to place.
     pub(crate) stirred: Option<Box<Stir>>,
     /// Whether the scene's lights have any effect.
     pub(crate) is_lit: bool,

@@ -43,13 +43,12 @@ impl<S: Surface> Placed<S> {
 /// Surfaces placed by a map: `surface.placed(map)` is [`Placed::new`].
 ///
 /// ```
-/// use durer_math::{Affine, Vec3};
+/// use durer_math::{Affine, Point3, Vec3};
 /// use durer_surfaces::{AxisBox, Place, Surface};
-/// use durer_math::Point3;
 ///
 /// let block = AxisBox::new(Point3::ORIGIN, Point3::new(1.0, 2.0, 3.0))?;
 /// let moved = block.placed(Affine::translation(Vec3::new(5.0, 0.0, 0.0))?);
-/// assert_eq!(moved.bounds().lo.x, 5.0);
+/// assert_eq!(moved.bounds().min.x, 5.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Place: Surface + Sized {

@@ -192,7 +192,8 @@ impl Maps {
         pen.sum(x, y)
     }
 
-    /// The same along a straight span, between the planes that halve its corners.
+    /// The map of a piece of the profile along a straight span, between the planes that halve its
+    /// corners.
     fn straight(&self, pen: &mut Pen, at: (usize, &Span), ab: [NodeId; 2], u: NodeId) -> Written<Vector> {
         let span = at.1;
         let (x, t) = (pen.constant(span.x)?, pen.constant(span.t)?);
@@ -233,8 +234,8 @@ impl Maps {
         Ok(Face::new(VectorTape::of(&pen.0, roots), [[0.0, 1.0]; 2]).reaching(OVERLAP))
     }
 
-    /// What a piece of the profile adds to a cap: all points between it and `q`. Its normal points
-    /// outward, away from the path.
+    /// The part of a cap between a piece of the profile and the point `q`. Its normal points outward,
+    /// away from the path.
     pub(super) fn cap(
         &self,
         number: usize,

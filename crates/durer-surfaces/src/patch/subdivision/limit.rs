@@ -37,7 +37,7 @@ const NOISE: f64 = 8.0;
 pub(super) const MOST_STEPS: u32 = 120;
 /// Steps that are taken ahead at most.
 pub(super) const AHEAD: u32 = 6;
-/// The same for triangles, whose patches take more time to make.
+/// Steps that are taken ahead at most for triangles, whose patches take more time to make.
 const AHEAD_TRIANGLES: u32 = 3;
 /// Fewer steps are taken ahead if there would be more patches than this.
 const MANY: usize = 1 << 18;
@@ -230,7 +230,7 @@ impl Refined {
     }
 }
 
-/// What a face or a part of it is.
+/// Where a face, or a part of it, is stored.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Spot {
     Leaf(u32),
@@ -456,8 +456,8 @@ impl Limit {
         }
     }
 
-    /// What a corner is refined to: kept with it, or in `spare` if too much is kept. `None` if it is a
-    /// patch.
+    /// The refined parts of a corner, kept with the corner, or in `spare` if too much is kept. `None`
+    /// if the corner is a patch.
     pub(super) fn finer<'a>(&self, tail: &'a Tail, spare: &'a mut Option<Box<Finer>>) -> Option<&'a Finer> {
         if let Some(finer) = tail.finer.get() {
             return Some(finer);
@@ -510,7 +510,7 @@ impl Limit {
         });
     }
 
-    /// What a line meets of a patch of a corner.
+    /// Finds where a line meets a patch of a corner.
     fn meet_patch(&self, at: &CentredRay<'_>, line: &Line, patch: &Patch, lists: &mut Lists) {
         // The hull of its own net is much smaller than that of the points about it.
         if line.misses(patch.leaf.base, &patch.hull, E_POINTS) {

@@ -198,7 +198,7 @@ impl Naive {
             .iter()
             .map(|f| {
                 let k = f.iter().position(|c| *c == v).unwrap();
-                // Of a triangle the next, none across, and the one before.
+                // A triangle has a next corner and one before, but none across.
                 let steps = if f.len() == 3 { [1, 1, 2] } else { [1, 2, 3] };
                 steps.map(|i| f[(k + i) % f.len()])
             })
