@@ -287,12 +287,13 @@ def test_the_interpreter_is_free_meanwhile():
 def test_control_c_stops_a_batch():
     origins, directions = some_rays(65536)
     many = np.broadcast_to(np.hstack([origins, directions]), (60, 65536, 6)).reshape(-1, 6)
-    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
     main = threading.main_thread().ident
     timer = threading.Timer(0.2, signal.pthread_kill, [main, signal.SIGINT])
     timer.start()
+    # On a busy machine the timer may be late for the first batch.
     with pytest.raises(KeyboardInterrupt):
-        SCENE.all(many)
+        while True:
+            SCENE.all(many)
 
 
 def test_progress_is_told_and_may_stop():
