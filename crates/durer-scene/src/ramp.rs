@@ -152,7 +152,7 @@ pub struct Slope {
     pub altitude: Option<(Vec3, [f64; 2])>,
 }
 
-/// What a slope is measured to, in the space of the world.
+/// The target of a slope, in the space of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SlopeTo {
     /// A direction of any length but zero.

@@ -440,7 +440,7 @@ pub struct Cached<'a> {
 }
 
 impl<'a> Cached<'a> {
-    /// The same oracle with a memory.
+    /// Wraps an oracle.
     pub fn new(oracle: &'a dyn Oracle) -> Self {
         Self { oracle, crossings: LineCache::default() }
     }
