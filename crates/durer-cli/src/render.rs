@@ -26,7 +26,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     frames.into_iter().try_for_each(|frame| {
         let mut scene = args.scene.clone();
         scene.clock = frame.clock;
-        // What the command line declares counts.
+        // Names declared on the command line replace those of the sequence.
         scene.declare = frame.names.into_iter().chain(scene.declare).collect();
         one(args, &scene, (&frame.output, format), region)
     })

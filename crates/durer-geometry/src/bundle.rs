@@ -105,8 +105,8 @@ impl Geometry {
         Candidate { arena, slot, name, mask }
     }
 
-    /// [`Masked::first_visible`](crate::Masked::first_visible) for a ray of the bundle that `candidates` was made for, with the
-    /// same answer.
+    /// The answer of [`Masked::first_visible`](crate::Masked::first_visible) for a ray of the bundle
+    /// that `beam` was made for.
     #[inline]
     pub fn seen_in(
         &self,
@@ -136,8 +136,8 @@ impl Geometry {
         )?
     }
 
-    /// [`Masked::any`](crate::Masked::any) for a ray of the bundle that `candidates` was made for, with the
-    /// same answer.
+    /// The answer of [`Masked::any`](crate::Masked::any) for a ray of the bundle that `beam` was made
+    /// for.
     #[inline]
     pub fn any_in(&self, beam: &CandidateList, ray: &Ray, mask: u32) -> bool {
         if beam.candidates.len() > CandidateList::FEW {

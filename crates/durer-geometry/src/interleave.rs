@@ -28,8 +28,8 @@ impl Geometry {
         hits.extend(memory.best.into_iter().map(|best| best.hit));
     }
 
-    /// [`Masked::first_visible`](crate::Masked::first_visible) of a few rays; `put` receives the answers with their rays'
-    /// numbers.
+    /// [`Masked::first_visible`](crate::Masked::first_visible) of a few rays; `put` receives the
+    /// answers with their rays' numbers.
     pub(crate) fn seen_abreast(
         &self,
         rays: &[Ray],
@@ -50,7 +50,8 @@ impl Geometry {
         }
     }
 
-    /// [`Masked::any`](crate::Masked::any) of a few rays; `put` receives the answers with their rays' numbers.
+    /// [`Masked::any`](crate::Masked::any) of a few rays; `put` receives the answers with their rays'
+    /// numbers.
     pub(crate) fn any_abreast(
         &self,
         rays: &[Ray],

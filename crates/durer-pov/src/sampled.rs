@@ -32,7 +32,7 @@ pub(crate) struct Called {
     prepared: OnceCell<Option<Rc<FunctionValues>>>,
 }
 
-/// What textures depend on beside their text.
+/// The noise and the settings that textures share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TextureContext<'a> {
     /// The noise, if it is not durer's own.
@@ -142,7 +142,7 @@ impl Called {
 }
 
 impl Parser<'_> {
-    /// What the textures of the scene depend on beside their text, as far as it is read.
+    /// The noise and the settings of the scene's textures, as far as the scene is read.
     pub(crate) fn texture_context(&self) -> TextureContext<'_> {
         TextureContext { noise: self.options.noise.as_ref(), waves: self.scene.globals.number_of_waves }
     }

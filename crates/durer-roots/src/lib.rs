@@ -8,7 +8,7 @@
 //! | [`exact`] | roots of polynomials with dyadic coefficients, counted and told apart exactly |
 //! | [`two_unknowns`] | zeros of two equations in a cell: Newton's step with Krawczyk's certificate |
 //!
-//! What is hot is generic or marked inline, so that it is compiled where it is used.
+//! Functions of ray loops are generic or marked inline, so they are compiled where they are used.
 #![forbid(unsafe_code)]
 
 pub mod bernstein;

@@ -46,7 +46,7 @@ pub struct LineRoot {
     pub lo: f64,
     /// The upper end of the bracket.
     pub hi: f64,
-    /// What the line does there.
+    /// How the line crosses or touches the zero set there.
     pub crossing: Crossing,
 }
 

@@ -10,7 +10,8 @@ use super::scene::{Node, Scene};
 pub(super) struct Reworded {
     /// The words in bold with which the entry begins.
     pub(super) entry: &'static str,
-    /// The same surfaces in other words. `None` if the scene has none of these.
+    /// Rewrites the surfaces of a scene with other words of the language. `None` if the scene has none
+    /// of them.
     pub(super) reworded: fn(&Scene) -> Option<Scene>,
 }
 

@@ -161,8 +161,8 @@ impl Geometry {
     }
 
     /// Stores the first hit of each ray of some packets, with the answers of
-    /// [`Masked::first_visible`](crate::Masked::first_visible). `candidates` holds what these rays may hit, if that is known.
-    /// The contents of `scratch` do not matter.
+    /// [`Masked::first_visible`](crate::Masked::first_visible). `beam` lists the surfaces that these
+    /// rays may hit, if that is known. The contents of `scratch` do not matter.
     pub fn first_visible8(
         &self,
         beam: Option<&CandidateList>,

@@ -283,7 +283,7 @@ mod tests {
             // Four standard deviations of the mean of points as far apart as these.
             assert!(sum.iter().all(|x| (x / n).abs() < 1.2 / n.sqrt()), "{most}: {sum:?}");
             if most == 400 {
-                // Of a disc with radius 1/2, the mean square is 1/8; a square with side 1/20 adds 1/2400.
+                // A disc of radius 1/2 has the mean square 1/8; a square with side 1/20 adds 1/2400.
                 assert!((squares / n - 0.125).abs() < 0.003, "{}", squares / n);
             }
         }

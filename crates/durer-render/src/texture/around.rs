@@ -45,7 +45,7 @@ impl Around<'_> {
     /// A point that lies on no surface.
     pub(crate) const NOWHERE: Self = Around { all: &Around8::NOWHERE, lane: 0 };
 
-    /// The same surface at all points.
+    /// The surface around this point, eight times.
     pub(super) fn everywhere(self) -> Around8 {
         let splat = Vec3::<F8>::splat;
         let points = splat(self.point().to_vec()).to_point();

@@ -62,7 +62,7 @@ impl Place {
         Self::Warped(Box::new(Warps { place, warps: warps.iter().map(Warp::new).collect() }))
     }
 
-    /// The same place for texture coordinates, if `on_chart` is set.
+    /// Places texture coordinates instead of points if `on_chart` is set.
     pub(crate) fn on_chart(self, on_chart: bool) -> Self {
         if on_chart { Self::Chart(Box::new(self)) } else { self }
     }

@@ -11,8 +11,8 @@
 //! so their union is one interval, from the least `m - √D / d²` to the greatest `m + √D / d²`. So
 //! the line meets the solid in one interval for each run of `D >= 0`, and the solid is the union of
 //! these: inner skins do not exist, and a line that touches the boundary from inside has no crossing
-//! there, since bodies that touch are one (as in CSG). Runs go on from a piece to the next through the ball they
-//! share, without any comparison.
+//! there, since bodies that touch are one (as in CSG). Runs go on from a piece to the next through
+//! the ball they share, without any comparison.
 //!
 //! * `line.rs`: the runs of one piece, by the signs of `D` in Bernstein form, and the ends of their
 //!   intervals. An end is proven: beyond it `|x - c(u)|² - r(u)²`, a polynomial in `u`, is positive
