@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 /// Which frames are rendered, and what `clock` is in each.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct FrameArgs {
-    /// Renders a sequence of pictures, with `frame_number` from this on ...
+    /// The first frame of a sequence of pictures: `frame_number` counts from it
     #[arg(long, value_name = "N")]
     pub(crate) initial_frame: Option<u32>,
-    /// ... up to this. Each picture has its number, with leading zeros, at the end of its name.
+    /// The last frame of the sequence. The name of each picture ends in its number, with zeros before
     #[arg(long, value_name = "N")]
     pub(crate) final_frame: Option<u32>,
     /// `clock` in the initial frame. [default: 0]
@@ -21,10 +21,10 @@ pub(crate) struct FrameArgs {
     /// `clock` in the final frame. [default: 1]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(crate) final_clock: Option<f64>,
-    /// Renders the frames of the sequence from this on: a number, or a fraction of all frames.
+    /// The first frame to render of the sequence: a number, or a fraction of all frames
     #[arg(long, value_name = "N")]
     pub(crate) subset_start: Option<f64>,
-    /// Renders the frames of the sequence up to this.
+    /// The last frame to render of the sequence: a number, or a fraction of all frames
     #[arg(long, value_name = "N")]
     pub(crate) subset_end: Option<f64>,
     /// Lets `clock` reach its final value in the frame after the final one.
@@ -41,7 +41,7 @@ pub(crate) struct Frame {
     pub(crate) names: Vec<(String, f64)>,
 }
 
-/// More frames than this no sequence may have: ten hours of film.
+/// More frames than this no sequence may have: eleven hours of film.
 const MOST_FRAMES: f64 = 1_000_000.0;
 
 impl FrameArgs {
