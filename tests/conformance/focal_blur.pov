@@ -3,7 +3,9 @@
 global_settings { assumed_gamma 1 }
 camera {
   right 4/3*x up y location <0, 1, -6> look_at <0.3, 0.5, 0>
-  aperture 0.8 focal_point <0.5, 0, -4> blur_samples 1000, 1000
+  aperture 0.8 focal_point <0.5, 0, -4>
+  #local N = (image_width > 320 ? 20 : 1000);
+  blur_samples N, N
 }
 light_source { <4, 9, -6> rgb 1 shadowless }
 plane { y, -1 pigment { gradient z colour_map { [0 rgb 0.2] [1 rgb 0.9] } scale 8 } }

@@ -1,11 +1,14 @@
 //! Directives: conditions, loops, includes, messages. They run while tokens are read.
 
+use std::path::PathBuf;
+
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::expression::{nearly_same, same};
 use crate::interner::Name;
 use crate::lexer::{Directive, Kind, Mark};
 use crate::messages::{Message, MessageKind};
 use crate::parser::{Control, Parser};
+use crate::shipped;
 use crate::value::Value;
 
 /// The number of steps that a message counts for, in addition to its letters.
@@ -296,6 +299,11 @@ impl Parser<'_> {
             return self.enter_file(file, Some(place));
         }
         let Some(path) = self.library.find(&name) else {
+            if let Some(text) = shipped::include(&name) {
+                let path = PathBuf::from(format!("durer's own {name}"));
+                let file = self.load_text(path, text.to_owned())?;
+                return self.enter_file(file, Some(place));
+            }
             let names = self.library.names();
             let near = crate::parser::nearest(&name, names.iter().map(String::as_str));
             let near = near.map_or_else(String::new, |near| format!(" (did you mean \"{near}\"?)"));

@@ -54,6 +54,7 @@ mod sampled;
 mod scene_builder;
 mod scope;
 mod settings;
+mod shipped;
 mod source;
 mod spline;
 mod strings;

@@ -14,6 +14,16 @@ fn scenes_are_read_or_refused() {
 }
 
 #[test]
+fn pictures_are_read_or_refused() {
+    each("picture", case::picture);
+}
+
+#[test]
+fn fonts_are_read_or_refused() {
+    each("font", case::font);
+}
+
+#[test]
 fn functions_have_bounds_or_are_refused() {
     each("function", case::function);
 }

@@ -3,6 +3,7 @@
 //! One unit is the font's em. The letters stand on the x axis from the origin, and reach from the
 //! plane `z = 0` to `z = thickness`.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -14,6 +15,7 @@ use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::limits;
 use crate::parser::{Item, Parser};
+use crate::shipped;
 use crate::source::read_bytes;
 use crate::transform::Matrix;
 
@@ -147,18 +149,27 @@ impl Parser<'_> {
         if thickness == 0.0 {
             return Ok(self.nothing("this text has no thickness", thickness_at));
         }
-        // The ending may be left out.
-        let found = self.library.find(&name).or_else(|| self.library.find(&format!("{name}.ttf")));
-        let Some(path) = found else {
-            let folders = self.library.listed();
-            let text = format!("there is no font \"{name}\"; searched: {folders}");
-            return Err(Error::file(Some(at), text));
-        };
-        let bad = |why: String| Error::file(Some(at), format!("{}: {why}", path.display()));
-        let bytes = read_bytes(&path, &self.options.limits, "a font").map_err(bad)?;
-        let face =
-            Face::parse(&bytes, 0).map_err(|why| bad(format!("not a font that can be read: {why}")))?;
+        let bytes = self.font(&name, at)?;
+        let face = Face::parse(&bytes, 0)
+            .map_err(|why| Error::file(Some(at), format!("{name}: not a font that can be read: {why}")))?;
         self.letters(&face, &text, thickness, offset, place)
+    }
+
+    /// The contents of a font's file. The ending may be left out.
+    fn font(&mut self, name: &str, at: Place) -> Result<Cow<'static, [u8]>> {
+        if let Some(path) = self.library.find(name).or_else(|| self.library.find(&format!("{name}.ttf"))) {
+            let bytes = read_bytes(&path, &self.options.limits, "a font");
+            return bytes
+                .map(Cow::Owned)
+                .map_err(|why| Error::file(Some(at), format!("{}: {why}", path.display())));
+        }
+        if let Some(font) = shipped::font(name) {
+            let text = "this font comes with POV-Ray, which is not installed: Liberation Serif is used";
+            self.notice(at, text);
+            return Ok(Cow::Borrowed(font));
+        }
+        let folders = self.library.listed();
+        Err(Error::file(Some(at), format!("there is no font \"{name}\"; searched: {folders}")))
     }
 
     /// The name of the font's file.
