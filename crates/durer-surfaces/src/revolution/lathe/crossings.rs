@@ -116,7 +116,13 @@ fn refined<T: Word>(
         }
     }
     let exact = |w: f64| EFloat::<T>::with_error(T::from(w), 0.0);
-    let here = value(equation, ray, powers, exact(w));
+    let mut here = value(equation, ray, powers, exact(w));
+    // Newton's steps end at the noise of the rounded value. Where the value in `T` is more precise,
+    // one step more with it ends within a rounding of the root.
+    let next = w - here.value() / slope;
+    if here.value().abs() > here.e && next != w && next >= meet.lo && next <= meet.hi {
+        (w, here) = (next, value(equation, ray, powers, exact(next)));
+    }
     let mut room = 2.0 * (here.magnitude() + here.e) / slope.abs() + U;
     for _ in 0..3 {
         if !(room.is_finite() && room < meet.hi - meet.lo) {
