@@ -42,7 +42,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | PassThrough
             | Pattern
             | Pavement
-            | Pot
             | PretraceEnd
             | PretraceStart
             | Prod

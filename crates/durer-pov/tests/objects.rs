@@ -523,3 +523,16 @@ fn components_of_blobs_may_have_textures_of_their_own() {
     assert_eq!(solid(&scene, 0), [0.0, 1.0, 0.0]);
     assert_eq!(blob(1).textures, []);
 }
+
+/// In POV-Ray the inside of a disc is that of its plane.
+#[test]
+fn a_disc_in_a_solid_is_a_plane_with_a_warning() {
+    let text = "intersection { sphere { 0, 1 } disc { <0, 1, 0>, y*2, 3 } }";
+    let scene = scene(text);
+    let Shape::Csg(_, parts) = &scene.objects[0].shape else { panic!("no solid") };
+    assert!(matches!(parts[1].shape, Shape::Plane { .. }), "{:?}", parts[1].shape);
+    let warning = "the border of a disc in a solid is not supported yet";
+    assert!(support::notices(text).iter().any(|notice| notice.contains(warning)));
+    let flat = "merge { sphere { 0, 1 } box { <-1, 0, -1>, <1, 0, 1> } }";
+    assert!(support::notices(flat).iter().any(|notice| notice.contains("without thickness")));
+}

@@ -26,7 +26,7 @@ use crate::light::Light;
 use crate::limits::{self, Charge};
 use crate::parser::{Item, Parser};
 use crate::texture::{Interior, Layer, Texture};
-use crate::transform::Matrix;
+use crate::transform::{Matrix, dot};
 use crate::value::Value;
 use durer_scene::{FillRule, Operation};
 
@@ -411,7 +411,34 @@ impl Parser<'_> {
                 format!("a light has no place in a {what}: a union holds lights"),
             ));
         }
-        Ok(Object::new(Shape::Csg(operation, parts), place))
+        let mut solids = Vec::with_capacity(parts.len());
+        for part in parts {
+            solids.extend(self.as_solid(part, operation)?);
+        }
+        if solids.is_empty() {
+            return Ok(Object::new(Shape::Nothing, place));
+        }
+        Ok(Object::new(Shape::Csg(operation, solids), place))
+    }
+
+    /// What a part of a solid is taken for. A disc without a hole holds all that is behind it, as
+    /// in POV-Ray, so it becomes a plane. A box without thickness adds nothing to a merge that
+    /// holds it.
+    fn as_solid(&mut self, part: Rc<Object>, operation: Operation) -> Result<Option<Rc<Object>>> {
+        match &part.shape {
+            &Shape::Disc { center, normal, hole: 0.0, .. } => {
+                self.note_left_out("the border of a disc in a solid", part.at)?;
+                let distance = dot(center, normal) / dot(normal, normal).sqrt();
+                let mut plane = (*part).clone();
+                plane.shape = Shape::Plane { normal, distance };
+                Ok(Some(Rc::new(plane)))
+            }
+            Shape::FlatBox { .. } if operation == Operation::Merge => {
+                self.note_left_out("a box without thickness in a merge", part.at)?;
+                Ok(None)
+            }
+            _ => Ok(Some(part)),
+        }
     }
 
     /// The objects of a union or of another combination, after its word. A block without any is read, with a warning.

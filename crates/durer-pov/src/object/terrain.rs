@@ -76,7 +76,7 @@ impl Parser<'_> {
         }
         let Some(format) = format.or_else(|| Format::from_name(&name)) else {
             let text = format!(
-                "the ending of \"{name}\" does not tell what it is: say png, tga, gif, bmp, jpeg, pgm or ppm before it"
+                "the ending of \"{name}\" does not tell what it is: say png, tga, gif, pot, bmp, jpeg, pgm or ppm before it"
             );
             return Err(Error::invalid(at, text));
         };
@@ -213,12 +213,12 @@ impl Parser<'_> {
 /// Formats of pictures that POV-Ray reads and durer does not.
 fn is_other_format(word: Keyword) -> bool {
     use Keyword::*;
-    matches!(word, Exr | Hdr | Iff | Pot | Sys | Tiff)
+    matches!(word, Exr | Hdr | Iff | Sys | Tiff)
 }
 
 fn unread(at: Place, format: &str) -> Box<Error> {
     let text = format!(
-        "not supported yet: a picture of type {format}: durer reads png, tga, gif, bmp, jpeg, pgm and ppm"
+        "not supported yet: a picture of type {format}: durer reads png, tga, gif, pot, bmp, jpeg, pgm and ppm"
     );
     Error::at(at, ErrorKind::Unsupported, text)
 }

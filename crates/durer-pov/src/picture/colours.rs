@@ -67,6 +67,7 @@ pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHo
         Format::Pnm => ImageFormat::Pnm,
         Format::Tga => ImageFormat::Tga,
         Format::Gif => ImageFormat::Gif,
+        Format::Pot => return fault("holds heights, not colours"),
         Format::Bmp => ImageFormat::Bmp,
         Format::Jpeg => ImageFormat::Jpeg,
         Format::Tiff => ImageFormat::Tiff,

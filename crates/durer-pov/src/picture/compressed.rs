@@ -101,6 +101,20 @@ pub(super) fn gif(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
     Ok(Picture { columns, rows, words })
 }
 
+/// POT: a GIF file twice as wide as the picture.
+pub(super) fn pot(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
+    let Picture { columns: whole, rows, words } = gif(bytes, may_hold)?;
+    let columns = whole / 2;
+    if columns == 0 {
+        return fault("is no POT file: it has only one column");
+    }
+    let row = |row: &[u16]| -> Vec<u16> {
+        row.iter().zip(&row[columns..]).take(columns).map(|(high, low)| high | low >> 8).collect()
+    };
+    let words = words.chunks_exact(whole).flat_map(row).collect();
+    Ok(Picture { columns, rows, words })
+}
+
 /// JPEG.
 pub(super) fn jpeg(bytes: &[u8], may_hold: MayHold<'_>) -> Result<Picture> {
     use zune_jpeg::JpegDecoder;

@@ -6,6 +6,7 @@
 //! - Of a PNG of 8 bits without alpha a third of the levels come out one lower ([`of_png_grey`]).
 //! - In a colour picture red is the high byte and green the low one; blue and alpha say nothing.
 //! - In a picture with a palette the index is the high byte; its colours say nothing.
+//! - The left half of a POT picture holds the high bytes, its right half the low bytes.
 
 pub(crate) mod colours;
 mod compressed;
@@ -50,6 +51,8 @@ pub(crate) enum Format {
     Pnm,
     Tga,
     Gif,
+    /// Fractint's continuous potentials of 16 bits: GIF files, for heights alone.
+    Pot,
     Bmp,
     Jpeg,
     Tiff,
@@ -65,6 +68,7 @@ impl Format {
             Keyword::Pgm | Keyword::Ppm => Self::Pnm,
             Keyword::Tga => Self::Tga,
             Keyword::Gif => Self::Gif,
+            Keyword::Pot => Self::Pot,
             Keyword::Bmp => Self::Bmp,
             Keyword::Jpeg => Self::Jpeg,
             Keyword::Tiff => Self::Tiff,
@@ -82,6 +86,7 @@ impl Format {
             "pgm" | "ppm" | "pnm" => Self::Pnm,
             "tga" => Self::Tga,
             "gif" => Self::Gif,
+            "pot" => Self::Pot,
             "bmp" => Self::Bmp,
             "jpg" | "jpeg" => Self::Jpeg,
             "tif" | "tiff" => Self::Tiff,
@@ -97,6 +102,7 @@ impl Format {
             Self::Pnm => "a PGM or PPM file",
             Self::Tga => "a TGA file",
             Self::Gif => "a GIF file",
+            Self::Pot => "a POT file",
             Self::Bmp => "a BMP file",
             Self::Jpeg => "a JPEG file",
             Self::Tiff => "a TIFF file",
@@ -111,7 +117,7 @@ impl Format {
             Self::Png => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
             Self::Pnm => matches!(bytes, [b'P', b'2' | b'3' | b'5' | b'6', ..]),
             Self::Tga => true,
-            Self::Gif => bytes.starts_with(b"GIF8"),
+            Self::Gif | Self::Pot => bytes.starts_with(b"GIF8"),
             Self::Bmp => bytes.starts_with(b"BM"),
             Self::Jpeg => bytes.starts_with(b"\xff\xd8"),
             Self::Tiff => bytes.starts_with(b"II") || bytes.starts_with(b"MM"),
@@ -135,6 +141,7 @@ pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHo
         Format::Pnm => plain::pnm(&bytes, may_hold),
         Format::Tga => plain::tga(&bytes, may_hold),
         Format::Gif => compressed::gif(&bytes, may_hold),
+        Format::Pot => compressed::pot(&bytes, may_hold),
         Format::Bmp => plain::bmp(&bytes, may_hold),
         Format::Jpeg => compressed::jpeg(&bytes, may_hold),
         Format::Tiff | Format::Exr | Format::Hdr => fault("is no picture of heights that durer reads"),

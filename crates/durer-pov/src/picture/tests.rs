@@ -110,3 +110,12 @@ fn png_of_all_depths() {
     let with_alpha = [1, 0, 2, 0, 3, 0, 4, 0];
     assert_eq!(words(&png(GrayscaleAlpha, Eight, &with_alpha), Format::Png), [257, 514, 771, 1028]);
 }
+
+#[test]
+fn the_right_half_of_a_pot_file_holds_the_low_bytes() {
+    // Indices 1, 2, 3, 4 and 5, 0, 6, 7.
+    let bytes = b"\x47\x49\x46\x38\x37\x61\x04\x00\x02\x00\x82\x00\x00\x00\x00\x00\x01\x01\x01\x02\x02\x02\x03\x03\x03\x04\x04\x04\x05\x05\x05\x06\x06\x06\x07\x07\x07\x2c\x00\x00\x00\x00\x04\x00\x02\x00\x00\x08\x0c\x00\x03\x08\x18\x40\xa0\x00\x00\x03\x07\x02\x02\x00\x3b";
+    assert_eq!(words(bytes, Format::Gif)[..4], [0x0100, 0x0200, 0x0300, 0x0400]);
+    assert_eq!(words(bytes, Format::Pot), [0x0103, 0x0204, 0x0506, 0x0007]);
+    assert_eq!(refused(b"P2 1 1", Format::Pot), "is not a POT file");
+}

@@ -18,6 +18,8 @@ pub(crate) struct ReadImage {
     pub(crate) map: Arc<ImageMap>,
     /// The number that a pattern takes from it.
     pub(crate) value: ImageValue,
+    /// The number that the scene asks for.
+    stated: Option<ImageValue>,
     /// The height of its bumps, if it is given.
     pub(crate) bump_size: Option<f64>,
 }
@@ -39,16 +41,33 @@ impl Parser<'_> {
         self.image_block_with(|_| Ok(false))
     }
 
+    /// The picture of a `bump_map`. Its heights are the numbers of the file, and those of colours
+    /// unless it says `use_index` (facts of the scene language).
+    pub(super) fn bump_block(&mut self) -> Result<ReadImage> {
+        let read = self.image_block_as(true, |_| Ok(false))?;
+        let value = read.stated.unwrap_or(ImageValue::Grey);
+        Ok(ReadImage { value, ..read })
+    }
+
     /// As [`Parser::image_block`]; `other` reads what else may stand in the block, if it comes next.
     pub(super) fn image_block_with(
         &mut self,
+        other: impl FnMut(&mut Self) -> Result<bool>,
+    ) -> Result<ReadImage> {
+        self.image_block_as(false, other)
+    }
+
+    /// `is_raw` if the numbers of the file stand as they are.
+    fn image_block_as(
+        &mut self,
+        is_raw: bool,
         mut other: impl FnMut(&mut Self) -> Result<bool>,
     ) -> Result<ReadImage> {
         self.expect(Mark::BraceOpen)?;
         let mut format = None;
         if let Some(word) = self.peek_word()? {
             let at = self.here();
-            format = Format::from_keyword(word);
+            format = Format::from_keyword(word).filter(|format| *format != Format::Pot);
             if format.is_some() {
                 self.next()?;
             } else if matches!(word, Keyword::Iff | Keyword::Pot | Keyword::Sys | Keyword::Function) {
@@ -133,14 +152,16 @@ impl Parser<'_> {
         }
         self.expect(Mark::BraceClose)?;
         let found = self.unpacked(&name, format, at)?;
+        let meaning = if is_raw { Some(Meaning::AsTheyAre) } else { meaning };
         let image = self.finished_image(found, meaning, &clears);
         let image = image.ok_or_else(|| Error::invalid(at, format!("\"{name}\" has no pixels")))?;
+        let stated = value;
         let value = value.unwrap_or(match image.has_palette() {
             true => ImageValue::Index,
             false => ImageValue::Grey,
         });
         let map = Arc::new(ImageMap { image: Arc::new(image), layout, once, between });
-        Ok(ReadImage { map, value, bump_size })
+        Ok(ReadImage { map, value, stated, bump_size })
     }
 
     fn unpacked(&mut self, name: &str, format: Format, at: Place) -> Result<Colours> {

@@ -139,7 +139,7 @@ impl Parser<'_> {
     ) -> Result<Option<NormalKind>> {
         if self.take_word(Keyword::BumpMap)? {
             let place = self.here();
-            let read = self.nested(Self::image_block)?;
+            let read = self.nested(Self::bump_block)?;
             *bump_size = Some(read.bump_size);
             let ramp = durer_scene::Ramp::Image(read.map, read.value);
             return Ok(Some(NormalKind::Pattern(PatternKind::Ramp(Rc::new(ramp), place))));

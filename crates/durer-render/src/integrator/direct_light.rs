@@ -5,7 +5,7 @@ use super::record::Record;
 use super::shading_point::Spot;
 use super::shadow::{Shade, Shadows};
 use crate::lanes::Rgb8;
-use crate::light::{Area, Beamed, RenderLight};
+use crate::light::{Area, Beamed, Divides, RenderLight};
 use crate::material::{Finish, Incidence, View};
 use crate::progress::Progress;
 use crate::stats::RayCounts;
@@ -161,8 +161,7 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Reduces the light by the shadows of all points of an area light. Where those looked at first
-    /// agree, the others are taken to agree too.
+    /// Reduces the light by the shadows of the points of an area light.
     fn soften(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -174,55 +173,108 @@ impl<'w> Lamps<'w> {
     ) {
         let full: Vec<Rgb8> = self.shadows.light().to_vec();
         let (rays, targets) = self.shadows.rays_mut();
-        let mut needed: Vec<M8> = rays.iter().map(|rays| rays.live).collect();
+        let needed: Vec<M8> = rays.iter().map(|rays| rays.live).collect();
         let middles: Vec<Point3<F8>> = targets.to_vec();
-        // By the weights among all points, and among those looked at first.
-        let mut sums = vec![[Rgb8::BLACK; 2]; full.len()];
-        let mut range = vec![(F8::splat(f64::INFINITY), F8::splat(f64::NEG_INFINITY)); full.len()];
-        for number in 0..area.len() {
-            if number == area.first {
-                for (i, needed) in needed.iter_mut().enumerate() {
-                    let (least, most) = range[i];
-                    // The language compares the shadows of corners with this bound.
-                    let differ = (full[i].luminance() * 0.1).lt(most - least);
-                    *needed &= differ;
-                }
-                if !needed.iter().any(|needed| needed.any()) {
-                    break;
-                }
-            }
-            self.shadows.light_mut().copy_from_slice(&full);
-            let (rays, targets) = self.shadows.rays_mut();
+        // The light of one point of the area in its shadows.
+        let mut shaded = |lamps: &mut Self, number: usize, needed: &[M8]| {
+            lamps.shadows.light_mut().copy_from_slice(&full);
+            let (rays, targets) = lamps.shadows.rays_mut();
             for (i, (rays, target)) in rays.iter_mut().zip(&mut *targets).enumerate() {
                 rays.live = needed[i];
                 if !rays.live.any() {
                     continue;
                 }
-                *target = middles[i] + area.offset(number, self.falling[i].at.to_light);
+                *target = middles[i] + area.offset(number, lamps.falling[i].at.to_light);
                 let (origin, back) = spots[i].hits.start_towards(*target - spots[i].hits.p);
                 (rays.origin, rays.direction) = (origin, *target - origin);
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
             }
             if let Some(through) = &lamp.through {
-                self.shadows.project(&through.geometry, false);
+                lamps.shadows.project(&through.geometry, false);
             }
-            self.shadows.cast((world, isa), None, media, stop, counts);
-            for (i, light) in self.shadows.light().iter().enumerate() {
-                let light = light.kept(needed[i]);
-                for (sum, weight) in sums[i].iter_mut().zip(area.weights(number)) {
-                    *sum += light * F8::splat(weight);
+            lamps.shadows.cast((world, isa), None, media, stop, counts);
+        };
+        let sums = if area.parts().is_empty() {
+            let mut sums = vec![Rgb8::BLACK; full.len()];
+            for number in 0..area.len() {
+                shaded(self, number, &needed);
+                let weight = F8::splat(area.weight(number));
+                for ((sum, light), needed) in sums.iter_mut().zip(self.shadows.light()).zip(&needed) {
+                    *sum += light.kept(*needed) * weight;
                 }
-                let brightness = light.luminance();
-                let (least, most) = &mut range[i];
-                (*least, *most) = (least.min(brightness), most.max(brightness));
             }
-        }
+            sums
+        } else {
+            self.soften_adaptively(area, &full, &needed, &mut shaded)
+        };
         let blockable: Vec<M8> = self.falling.iter().map(|falling| falling.blockable).collect();
         for (i, light) in self.shadows.light_mut().iter_mut().enumerate() {
-            let [all, first] = sums[i];
-            let soft = if area.first == area.len() { all } else { all.or(needed[i], first) };
-            *light = soft.or(blockable[i] & !full[i].is_black(), full[i]);
+            *light = sums[i].or(blockable[i] & !full[i].is_black(), full[i]);
         }
+    }
+
+    /// The light of an adaptive area light. Parts of its grid are divided only where the shadows of
+    /// their corners differ. `shaded` computes the light of one point of the area.
+    fn soften_adaptively(
+        &mut self,
+        area: &Area,
+        full: &[Rgb8],
+        needed: &[M8],
+        shaded: &mut impl FnMut(&mut Self, usize, &[M8]),
+    ) -> Vec<Rgb8> {
+        let parts = area.parts();
+        let depths = parts.iter().map(|part| part.depth + 1).max().unwrap_or(0);
+        let mut sums = vec![Rgb8::BLACK; full.len()];
+        // The lanes that look into the parts of each depth.
+        let mut looking = vec![vec![M8::NONE; full.len()]; depths + 1];
+        looking[0].copy_from_slice(needed);
+        // For each point the lanes for which it is known, and its light.
+        let mut known: Vec<Vec<(M8, Rgb8)>> = vec![Vec::new(); area.len()];
+        let mut missing = vec![M8::NONE; full.len()];
+        let mut number = 0;
+        while let Some(part) = parts.get(number) {
+            let (above, below) = looking.split_at_mut(part.depth + 1);
+            let (looks, divided) = (&above[part.depth], &mut below[0]);
+            if part.divides == Divides::Always {
+                divided.copy_from_slice(looks);
+                number += 1;
+                continue;
+            }
+            if !looks.iter().any(|lanes| lanes.any()) {
+                number = part.next;
+                continue;
+            }
+            for corner in part.corners {
+                let known = &mut known[corner];
+                known.resize(full.len(), (M8::NONE, Rgb8::BLACK));
+                for ((missing, looks), (have, _)) in missing.iter_mut().zip(looks).zip(&*known) {
+                    *missing = *looks & !*have;
+                }
+                if !missing.iter().any(|missing| missing.any()) {
+                    continue;
+                }
+                shaded(self, corner, &missing);
+                for ((missing, light), (have, kept)) in
+                    missing.iter().zip(self.shadows.light()).zip(&mut *known)
+                {
+                    (*have, *kept) = (*have | *missing, light.or(*missing, *kept));
+                }
+            }
+            for (i, looks) in looks.iter().enumerate() {
+                let corners = part.corners.map(|corner| known[corner][i].1);
+                let brightness = corners.map(Rgb8::luminance);
+                let most = brightness.into_iter().reduce(F8::max).unwrap_or(F8::ZERO);
+                let least = brightness.into_iter().reduce(F8::min).unwrap_or(F8::ZERO);
+                // The language compares the shadows of corners with this bound.
+                let differ = (full[i].luminance() * 0.1).lt(most - least);
+                divided[i] = if part.divides == Divides::Never { M8::NONE } else { *looks & differ };
+                for corner in corners {
+                    sums[i] += corner.kept(*looks & !divided[i]) * F8::splat(part.weight);
+                }
+            }
+            number = if divided.iter().any(|lanes| lanes.any()) { number + 1 } else { part.next };
+        }
+        sums
     }
 
     /// Computes how a light, or one point of its area, falls on spots, before anything is scattered.

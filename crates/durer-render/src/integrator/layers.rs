@@ -41,6 +41,8 @@ pub(super) struct Coats<'w> {
     plain: Vec<View>,
     /// Of bumpy surfaces: the normals of the outermost layer.
     top_normals: Vec<Vec3<F8>>,
+    /// The finish of the outermost layer, if it has a thin film.
+    pub(super) film: Option<&'w Finish>,
     /// The number of spots.
     spots: usize,
     /// The lanes of each spot that see the current layer.
@@ -87,6 +89,7 @@ impl<'w> Coats<'w> {
         self.finishes.extend(finishes().filter(|f| f.is_lit));
         self.mirrors.clear();
         self.mirrors.extend(finishes().filter_map(|f| f.mirror.as_deref()));
+        self.film = layers.last().map(|coat| &coat.finish).filter(|finish| finish.irid.is_some());
         self.lit.clear();
         self.mirrored.clear();
         self.lit_views.clear();

@@ -111,12 +111,8 @@ impl<'w> Onward<'w> {
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
-                    for (i, spot) in spots.iter().enumerate() {
+                    for spot in spots {
                         let (direction, lanes) = passing(world, border, spot);
-                        let direction = match coats.plain_view(i) {
-                            Some(plain) => kept_behind(direction, plain),
-                            None => direction,
-                        };
                         let (weight, counts_for_enough) = dimmed(world, spot);
                         let lanes = lanes & counts_for_enough;
                         let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
@@ -135,8 +131,13 @@ impl<'w> Onward<'w> {
                             let lanes = totally_reflected(world, border, spot) & counts_for_enough;
                             if lanes.any() {
                                 // Nothing passes, so the factor does not contain the layers'
-                                // colour. The ray's weight is still that of a ray that passes.
-                                let factor = spot.paths.factor * faded(world, part, spot);
+                                // colour. The ray's weight is still that of a ray that passes. The
+                                // outermost layer's film changes it (facts of the scene language).
+                                let mut factor = spot.paths.factor * faded(world, part, spot);
+                                if let Some(film) = coats.film {
+                                    let way = spot.view.cosine.abs() * 2.0;
+                                    factor = factor * film.interference(spot.hits.p, way, lanes);
+                                }
                                 send(
                                     total,
                                     spot,
@@ -195,14 +196,6 @@ fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     turned_away.select3(reflect(view.eye, plain.normal), kept)
 }
 
-/// The direction behind a surface with perturbed normals: one that would come back is mirrored by
-/// the unperturbed normal.
-#[inline(always)]
-fn kept_behind(direction: Vec3<F8>, plain: &View) -> Vec3<F8> {
-    let comes_back = dot(direction, plain.normal).gt(F8::ZERO);
-    comes_back.select3(reflect(direction, plain.normal), direction)
-}
-
 /// The lanes where the layers let enough light pass for a ray behind them.
 #[inline(always)]
 fn open(world: &World, spot: &Spot) -> M8 {
@@ -217,7 +210,7 @@ fn dimmed(world: &World, spot: &Spot) -> (F8, M8) {
 }
 
 /// The normal at which rays are bent: a perturbed normal that points away from the eye is turned
-/// round (a fact of the scene language).
+/// round. A bent ray may then come back to the side of the eye (facts of the scene language).
 #[inline(always)]
 fn facing(spot: &Spot) -> Vec3<F8> {
     let turned_away = F8::ZERO.lt(dot(spot.view.eye, spot.view.normal));

@@ -86,10 +86,13 @@ impl<'w> Shadows<'w> {
         for (((rays, target), light), hits) in ends.zip(&mut self.light).zip(&hits) {
             *light = light.kept(!(rays.live & !hits.hit));
             rays.live &= hits.hit;
-            let end = rays.origin + rays.direction * hits.t;
+            // A copy of the object in the scene, at the same place, throws no shadow: the ray is the
+            // same, so both crossings lie within the error bound of the exact one.
+            let before = (hits.t - hits.t_error * 2.0).max(F8::ZERO);
+            let end = rays.origin + rays.direction * before;
             for i in rays.live.lanes() {
                 (target.x.0[i], target.y.0[i], target.z.0[i]) = (end.x.0[i], end.y.0[i], end.z.0[i]);
-                rays.direction.set_lane(i, end.to_vec().lane(i) - rays.origin.to_vec().lane(i));
+                rays.t_max.0[i] = before.0[i].next_down().max(0.0);
             }
             if shadowless {
                 rays.live = M8::NONE;

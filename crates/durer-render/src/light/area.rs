@@ -1,8 +1,7 @@
 //! The points of an area light, which throw soft shadows.
 
 use crate::vector::{dot, length};
-use core::f64::consts::FRAC_PI_4;
-use durer_math::{F8, Vec3, elementary};
+use durer_math::{F8, Vec3};
 use durer_scene::AreaLight;
 
 /// The points of an area light.
@@ -10,10 +9,9 @@ use durer_scene::AreaLight;
 pub(crate) struct Area {
     sides: [Vec3; 2],
     orient: bool,
-    /// The points. Those that are looked at first come first.
     points: Box<[Point]>,
-    /// How many are looked at first; the others only where their shadows differ.
-    pub(crate) first: usize,
+    /// The parts that an adaptive light may leave undivided; empty if it looks at all points.
+    parts: Box<[Part]>,
 }
 
 /// A point of an area light.
@@ -21,8 +19,32 @@ pub(crate) struct Area {
 struct Point {
     /// The position along the sides, from -1/2 to 1/2.
     at: (f64, f64),
-    /// Its weight among all points, and among those that are looked at first.
-    weights: [f64; 2],
+    /// Its weight among all points.
+    weight: f64,
+}
+
+/// A part of the grid of an adaptive light, in the order of a walk that visits each part before the
+/// parts that it is divided into.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// The points at its corners.
+    pub(crate) corners: [usize; 4],
+    /// How often the grid was divided to make it.
+    pub(crate) depth: usize,
+    /// The weight of each corner if it is not divided.
+    pub(crate) weight: f64,
+    pub(crate) divides: Divides,
+    /// The first part that is not one of its own parts.
+    pub(crate) next: usize,
+}
+
+/// When a part of the grid is divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Divides {
+    Always,
+    /// Where the shadows of its corners differ.
+    WhereCornersDiffer,
+    Never,
 }
 
 impl Area {
@@ -32,32 +54,42 @@ impl Area {
         if columns * rows <= 1 {
             return None;
         }
-        let mut weights = vec![[0.0; 2]; (columns * rows) as usize];
-        let whole = [0, 0, columns - 1, rows - 1];
-        spread(&mut weights, columns, whole, 1.0, 0, u32::MAX);
-        spread(&mut weights, columns, whole, 1.0, 1, area.adaptive.unwrap_or(u32::MAX));
+        let mut walk = Vec::new();
+        let grid = Cells { columns, depth: 0, adaptive: area.adaptive.unwrap_or(u32::MAX) };
+        grid.divide([0, 0, columns - 1, rows - 1], 0.25, &mut walk);
+        let mut weights = vec![0.0; (columns * rows) as usize];
+        // All parts that are not divided, if corners differ everywhere.
+        for part in walk.iter().filter(|part| part.divides == Divides::Never) {
+            part.corners.iter().for_each(|&corner| weights[corner] += part.weight);
+        }
         let mut points = Vec::with_capacity(weights.len());
-        for (number, weights) in (0..).zip(weights) {
+        for (number, weight) in (0..).zip(weights) {
             let at = |number: u32, of: u32| match of {
                 1 => 0.0,
                 _ => f64::from(number) / f64::from(of - 1) - 0.5,
             };
             let (u, v) = (at(number % columns, columns), at(number / columns, rows));
-            points.push(Point { at: if area.circular { on_disc(u, v) } else { (u, v) }, weights });
+            points.push(Point { at: if area.circular { on_disc(u, v) } else { (u, v) }, weight });
         }
-        points.sort_by_key(|point| point.weights[1] == 0.0);
-        let first = points.iter().take_while(|point| point.weights[1] > 0.0).count();
-        Some(Self { sides: area.sides, orient: area.orient, points: points.into(), first })
+        if !walk.iter().any(|part| part.divides == Divides::WhereCornersDiffer) {
+            walk.clear();
+        }
+        Some(Self { sides: area.sides, orient: area.orient, points: points.into(), parts: walk.into() })
     }
 
-    /// The weight of a point among all points, and among those that are looked at first.
-    pub(crate) fn weights(&self, number: usize) -> [f64; 2] {
-        self.points[number].weights
+    /// The weight of a point among all points.
+    pub(crate) fn weight(&self, number: usize) -> f64 {
+        self.points[number].weight
     }
 
     /// The number of points.
     pub(crate) fn len(&self) -> usize {
         self.points.len()
+    }
+
+    /// The parts of an adaptive light; empty if all points are looked at.
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     /// The way from the light's location to one of its points, for points that are lit from some
@@ -74,25 +106,45 @@ impl Area {
     }
 }
 
-/// Adds the weights of the points of a part of the grid, from one corner to the other: the mean of
-/// the four corners, or of four smaller parts, down to the given depth.
-fn spread(
-    weights: &mut [[f64; 2]],
+/// The grid of an area light at some depth.
+#[derive(Clone, Copy)]
+struct Cells {
     columns: u32,
-    [u1, v1, u2, v2]: [u32; 4],
-    weight: f64,
-    kind: usize,
     depth: u32,
-) {
-    if depth == 0 || (u2 <= u1 + 1 && v2 <= v1 + 1) {
-        for (u, v) in [(u1, v1), (u2, v1), (u1, v2), (u2, v2)] {
-            weights[(v * columns + u) as usize][kind] += weight * 0.25;
+    adaptive: u32,
+}
+
+impl Cells {
+    /// Adds the part of the grid between two corners, and all parts of it.
+    ///
+    /// A fact of the scene language: parts with a point in their middle share it, others are split
+    /// between two points. A part counts by the mean of its corners.
+    fn divide(self, [u1, v1, u2, v2]: [u32; 4], weight: f64, walk: &mut Vec<Part>) {
+        let corner = |(u, v): (u32, u32)| (v * self.columns + u) as usize;
+        let divides = if u2 <= u1 + 1 && v2 <= v1 + 1 {
+            Divides::Never
+        } else if self.depth < self.adaptive {
+            Divides::Always
+        } else {
+            Divides::WhereCornersDiffer
+        };
+        let number = walk.len();
+        walk.push(Part {
+            corners: [(u1, v1), (u2, v1), (u1, v2), (u2, v2)].map(corner),
+            depth: self.depth as usize,
+            weight,
+            divides,
+            next: 0,
+        });
+        if divides != Divides::Never {
+            let below = Self { depth: self.depth + 1, ..self };
+            let ([ua, va], [ub, vb]) =
+                ([(u1 + u2) / 2, (v1 + v2) / 2], [(u1 + u2).div_ceil(2), (v1 + v2).div_ceil(2)]);
+            for part in [[u1, v1, ua, va], [ub, v1, u2, va], [u1, vb, ua, v2], [ub, vb, u2, v2]] {
+                below.divide(part, weight * 0.25, walk);
+            }
         }
-        return;
-    }
-    let (u, v) = ((u1 + u2) / 2, (v1 + v2) / 2);
-    for part in [[u1, v1, u, v], [u, v1, u2, v], [u1, v, u, v2], [u, v, u2, v2]] {
-        spread(weights, columns, part, weight * 0.25, kind, depth - 1);
+        walk[number].next = walk.len();
     }
 }
 
@@ -109,39 +161,56 @@ fn cross(a: Vec3<F8>, b: Vec3<F8>) -> Vec3<F8> {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
-/// The point of a disc for a point of the square around it: squares become circles.
+/// The point of a disc for a point of the square around it, in the same direction: squares become
+/// circles.
 fn on_disc(u: f64, v: f64) -> (f64, f64) {
     let r = u.abs().max(v.abs());
     if r == 0.0 {
         return (0.0, 0.0);
     }
-    let angle = if u.abs() > v.abs() {
-        FRAC_PI_4 * (v / u) + if u < 0.0 { 4.0 * FRAC_PI_4 } else { 0.0 }
-    } else {
-        2.0 * FRAC_PI_4 - FRAC_PI_4 * (u / v) + if v < 0.0 { 4.0 * FRAC_PI_4 } else { 0.0 }
-    };
-    (r * elementary::cos(angle), r * elementary::sin(angle))
+    let shrink = r / (u * u + v * v).sqrt();
+    (u * shrink, v * shrink)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn corners_are_looked_at_first() {
+    fn grid(columns: u32, rows: u32, adaptive: Option<u32>) -> Area {
         let area = AreaLight {
             sides: [Vec3::X, Vec3::Y],
-            points: [5, 3],
+            points: [columns, rows],
             circular: false,
             orient: false,
-            adaptive: Some(0),
+            adaptive,
             illuminates: false,
         };
-        let area = Area::new(&area).unwrap();
-        assert_eq!((area.first, area.len()), (4, 15));
+        Area::new(&area).unwrap()
+    }
+
+    /// Weights measured with POV-Ray, by hiding one point after the other.
+    #[test]
+    fn weights_are_those_of_the_scene_language() {
+        let weights = |n: u32| grid(n, 1, None).points.iter().map(|p| p.weight * 8.0).collect::<Vec<_>>();
+        assert_eq!(weights(3), [2.0, 4.0, 2.0]);
+        assert_eq!(weights(4), [2.0; 4]);
+        assert_eq!(weights(5), [1.0, 2.0, 2.0, 2.0, 1.0]);
+        assert_eq!(weights(6), [1.0, 2.0, 1.0, 1.0, 2.0, 1.0]);
+        assert_eq!(weights(7), [1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn adaptive_lights_are_divided_where_corners_differ() {
+        assert!(grid(4, 4, None).parts().is_empty());
+        let area = grid(5, 3, Some(1));
         assert_eq!(area.points[0].at, (-0.5, -0.5));
-        let sum = |kind: usize| area.points.iter().map(|point| point.weights[kind]).sum::<f64>();
-        assert_eq!([sum(0), sum(1)], [1.0, 1.0]);
+        assert_eq!(area.points.iter().map(|point| point.weight).sum::<f64>(), 1.0);
+        let parts = area.parts();
+        let first =
+            Part { corners: [0, 4, 10, 14], depth: 0, weight: 0.25, divides: Divides::Always, next: 21 };
+        assert_eq!((parts.len(), parts[0]), (21, first));
+        assert_eq!((parts[1].divides, parts[1].next), (Divides::WhereCornersDiffer, 6));
+        assert_eq!((parts[2].divides, parts[2].next), (Divides::Never, 3));
     }
 
     #[test]
@@ -149,7 +218,7 @@ mod tests {
         for (u, v) in [(0.5, 0.5), (-0.5, 0.1), (0.2, -0.5), (0.5, 0.0)] {
             let (x, y) = on_disc(u, v);
             assert!(((x * x + y * y).sqrt() - 0.5).abs() < 1e-12);
-            assert!(x * u >= 0.0 && y * v >= 0.0);
+            assert!(x * u >= 0.0 && y * v >= 0.0 && (x * v - y * u).abs() < 1e-12);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 mod area;
 
-pub(crate) use self::area::Area;
+pub(crate) use self::area::{Area, Divides};
 
 use crate::medium::NO_DISTANCE;
 use crate::power::Power;

@@ -5,7 +5,7 @@
 //! ```text
 //!   n - 2/15 a grad h      for a landscape with heights h and the factor a,
 //!   n + a v                for a vector v,
-//!   n - a (dx, dy, 0)      for the differences of a picture's values from pixel to pixel,
+//!   n - a (dx, dy, 0)      for the differences of a picture's values to the right and up,
 //! ```
 //!
 //! and is then scaled to length 1. The gradient is estimated from the heights at the four corners of

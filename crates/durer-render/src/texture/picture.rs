@@ -75,13 +75,18 @@ impl Picture {
     /// The colour at a point.
     pub(super) fn colour(&self, p: Point3) -> Colour {
         let Some((u, v)) = self.place(p) else { return CLEAR };
-        let image = &self.0.image;
         let (columns, rows) = self.size();
+        self.colour_at(u * columns, v * rows)
+    }
+
+    /// The colour `x` and `y` pixels from the lower left corner.
+    fn colour_at(&self, x: f64, y: f64) -> Colour {
+        let image = &self.0.image;
         if self.0.between == Between::Nearest {
-            let (column, row) = self.pixel(floor(u * columns), floor(v * rows));
+            let (column, row) = self.pixel(floor(x), floor(y));
             return image.colour(column, row);
         }
-        let (x, y) = (u * columns - 0.5, v * rows - 0.5);
+        let (x, y) = (x - 0.5, y - 0.5);
         let mut terms = [0.0; 5];
         let mut add = |x: f64, y: f64, weight: f64| {
             if weight != 0.0 {
@@ -129,21 +134,23 @@ impl Picture {
         self.0.image.index(column, row)
     }
 
-    /// The differences of the value between the pixel at a point and those to the right and above.
+    /// The differences of the value to the right and upward: those of the plane through the values
+    /// at three places, the point and one pixel down to the left and to the right of it (a fact of
+    /// the scene language).
     pub(super) fn differences(&self, p: Point3, value: ImageValue) -> Vec3 {
         let Some((u, v)) = self.place(p) else { return Vec3::ZERO };
         let (columns, rows) = self.size();
-        let (x, y) = (floor(u * columns), floor(v * rows));
-        let at = |x: f64, y: f64| {
-            let (column, row) = self.pixel(x, y);
-            match value {
-                ImageValue::Grey => self.0.image.colour(column, row).rgb.luminance(),
-                ImageValue::Alpha => 1.0 - self.0.image.colour(column, row).transmit,
-                ImageValue::Index => self.0.image.index(column, row) as f64 / 255.0,
+        let (x, y) = (u * columns, v * rows);
+        let at = |x: f64, y: f64| match value {
+            ImageValue::Grey => self.colour_at(x, y).rgb.luminance(),
+            ImageValue::Alpha => 1.0 - self.colour_at(x, y).transmit,
+            ImageValue::Index => {
+                let (column, row) = self.pixel(floor(x), floor(y));
+                self.0.image.index(column, row) as f64 / 255.0
             }
         };
-        let here = at(x, y);
-        Vec3::new(at(x + 1.0, y) - here, at(x, y + 1.0) - here, 0.0)
+        let (here, left, right) = (at(x, y), at(x - 1.0, y - 1.0), at(x + 1.0, y - 1.0));
+        Vec3::new(0.5 * (right - left), here - 0.5 * (left + right), 0.0)
     }
 
     /// The number that the picture gives at a point; 0 beyond a picture that is there once.
@@ -220,6 +227,22 @@ mod tests {
             assert!(close(at(&distance, right, down), want), "{right} {down}");
         }
         assert!(close(at(&dot(Between::Linear, false), 0.25, 0.25), 0.5625));
+    }
+
+    /// Values of POV-Ray: each pixel of a picture was lit alone.
+    #[test]
+    fn differences_are_those_of_three_places() {
+        let picture = dot(Between::Nearest, false);
+        let at = |right: f64, up: f64| {
+            let p = Point3::new((3.6 + right) / 8.0, (4.7 + up) / 8.0, 0.0);
+            let d = picture.differences(p, ImageValue::Grey);
+            // White has the luminance 1 but for rounding.
+            [d.x, d.y].map(|x| (x * 1024.0).round() / 1024.0)
+        };
+        assert_eq!(at(0.0, 0.0), [0.0, 1.0]);
+        assert_eq!(at(1.0, 1.0), [-0.5, -0.5]);
+        assert_eq!(at(-1.0, 1.0), [0.5, -0.5]);
+        assert_eq!((at(1.0, 0.0), at(0.0, 1.0), at(1.0, -1.0)), ([0.0; 2], [0.0; 2], [0.0; 2]));
     }
 
     #[test]
