@@ -23,7 +23,7 @@
 
 use super::limit::Node;
 use super::plan::Plan;
-use durer_math::{Dd, Vec3};
+use durer_math::Vec3;
 
 /// So many steps are taken. What remains of the third eigenvalue is its ratio to the second to this
 /// power: below 2^-53 where a crease has up to ten faces on one side, of which the ratio is 0.95.
