@@ -207,6 +207,12 @@ fn patches_say_what_is_wrong_with_them() {
             "subdivision: face 0 has 4 vertices, Loop's rules are for triangles",
         ),
         ("subdivision { scheme square }", "a scheme is catmull_clark or loop"),
+        ("subdivision { uv_interpolation cubic }", "uv_interpolation is linear or smooth"),
+        (
+            "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 2> } uv_interpolation smooth }",
+            "subdivision: smooth texture coordinates are asked for, but there are none",
+        ),
+        ("subdivision { displace 0.1 }", "durer does not displace subdivision surfaces"),
         (
             "subdivision { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }",
             "subdivision: face 0 names vertex 3, there are 3 (0 to 2)",

@@ -7,7 +7,7 @@ use durer::scene::{
     IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
     Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
     Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData, Sweep,
-    SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, Warp,
+    SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, UvInterpolation, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -284,6 +284,7 @@ fn subdivision(
     holes: Vec<u32>,
     smooth_boundary: bool,
     is_loop: bool,
+    smooth_uv: bool,
 ) -> PyResult<Object> {
     checked(Shape::Subdivision(Arc::new(SubdivisionData {
         scheme: if is_loop { Scheme::Loop } else { Scheme::CatmullClark },
@@ -295,6 +296,7 @@ fn subdivision(
         corners,
         holes,
         boundary: if smooth_boundary { Boundary::Smooth } else { Boundary::Corners },
+        uv_interpolation: if smooth_uv { UvInterpolation::Smooth } else { UvInterpolation::Linear },
     })))
 }
 

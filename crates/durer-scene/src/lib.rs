@@ -81,7 +81,7 @@ pub use durer_surfaces::terrain::MOST_SAMPLES;
 pub use durer_surfaces::{
     BlobComponent, BlobShape, Boundary, FillRule, HeightField, Julia, JuliaAlgebra, JuliaPower, NurbsData,
     NurbsError, Scheme, SewnData, SewnError, SubdivisionData, SubdivisionError, SweepSpline, Terrain,
-    TerrainData, TrimError, TrimLoop, Warp,
+    TerrainData, TrimError, TrimLoop, UvInterpolation, Warp,
 };
 /// A profile swept along any path.
 pub use durer_surfaces::{PathSpline, PathSweep, SweepData, SweepError};

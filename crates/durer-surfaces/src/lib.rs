@@ -111,6 +111,7 @@ pub use crate::parametric::{Parametric, ParametricError, PathSpline, PathSweep, 
 pub use crate::patch::{
     BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, Sewn, SewnData, SewnError,
     SubdivisionData, SubdivisionError, SubdivisionSurface, TriangularPatch, TrimError, TrimLoop,
+    UvInterpolation,
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;

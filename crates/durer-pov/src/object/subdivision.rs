@@ -9,7 +9,7 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::source::read_bytes;
 use durer_math::Point3;
-use durer_scene::{Boundary, Scheme, SubdivisionData};
+use durer_scene::{Boundary, Scheme, SubdivisionData, UvInterpolation};
 
 /// Bytes of a list of corners, besides them.
 const LIST: usize = size_of::<Vec<u32>>();
@@ -21,8 +21,8 @@ pub(crate) fn bytes(data: &SubdivisionData) -> usize {
 }
 
 impl Parser<'_> {
-    /// `"file.obj"`, or lists as in `mesh2`, with `scheme`, `creases`, `corners`, `holes` and
-    /// `boundary` among them in any order.
+    /// `"file.obj"`, or lists as in `mesh2`, with `scheme`, `creases`, `corners`, `holes`, `boundary`
+    /// and `uv_interpolation` among them in any order.
     pub(super) fn subdivision(&mut self, place: Place) -> Result<Shape> {
         let mut data = SubdivisionData::default();
         let mut found = false;
@@ -103,6 +103,18 @@ impl Parser<'_> {
                 } else {
                     return Err(Error::invalid(at, "a boundary is smooth or corners"));
                 };
+            } else if self.small_word("uv_interpolation")? {
+                self.peek()?;
+                let at = self.here();
+                data.uv_interpolation = if self.small_word("smooth")? || self.take_word(Keyword::Smooth)? {
+                    UvInterpolation::Smooth
+                } else if self.small_word("linear")? {
+                    UvInterpolation::Linear
+                } else {
+                    return Err(Error::invalid(at, "uv_interpolation is linear or smooth"));
+                };
+            } else if self.small_word("displace")? {
+                return Err(Error::invalid(at, "durer does not displace subdivision surfaces"));
             } else {
                 break;
             }

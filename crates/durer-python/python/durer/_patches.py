@@ -198,6 +198,8 @@ class Subdivision(Object):
         Whether vertices with one face are sharp.
     uv, uv_faces : array (k, 2) and sequence of sequences, optional
         Texture coordinates, and their numbers at the corners of each face.
+    uv_interpolation : "linear" or "smooth"
+        Whether they are linear over each face or follow the rules of the surface.
     scheme : "catmull_clark" or "loop"
         Whose rules: Catmull and Clark's for any polygons, or Loop's for triangles.
 
@@ -224,20 +226,24 @@ class Subdivision(Object):
         uv: npt.ArrayLike | None = None,
         uv_faces: Sequence[Sequence[int]] = (),
         scheme: str = "catmull_clark",
+        uv_interpolation: str = "linear",
     ) -> None:
         if boundary not in ("corners", "smooth"):
             raise ValueError(f'boundary: "corners" or "smooth" is needed, got {boundary!r}')
         if scheme not in ("catmull_clark", "loop"):
             raise ValueError(f'scheme: "catmull_clark" or "loop" is needed, got {scheme!r}')
+        if uv_interpolation not in ("linear", "smooth"):
+            raise ValueError(f'uv_interpolation: "linear" or "smooth" is needed, got {uv_interpolation!r}')
         points = row_tuples(vertices, 3, "vertices")
         polygons, uv_polygons = _polygons(faces, "faces"), _polygons(uv_faces, "uv_faces")
         coordinates = None if uv is None else row_tuples(uv, 2, "uv")
         edges = tuple((_index(a, "creases"), _index(b, "creases"), number(s, "creases")) for a, b, s in creases)
         sharp = tuple((_index(v, "corners"), number(s, "corners")) for v, s in corners)
         missing = tuple(_index(face, "holes") for face in holes)
-        flags = (boundary == "smooth", scheme == "loop")
+        flags = (boundary == "smooth", scheme == "loop", uv_interpolation == "smooth")
         native = _native.subdivision(points, polygons, coordinates or (), uv_polygons, edges, sharp, missing, *flags)
-        self._set(native, (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons, scheme))
+        lists = (points, polygons, edges, sharp, missing, boundary, coordinates, uv_polygons)
+        self._set(native, (*lists, scheme, uv_interpolation))
 
 
 def _index(value: Any, name: str) -> int:

@@ -54,7 +54,9 @@ use surface::{Patches, surface_of_patches};
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
 pub use sewn::{Sewn, SewnData, SewnError};
-pub use subdivision::{Boundary, Scheme, SubdivisionData, SubdivisionError, SubdivisionSurface};
+pub use subdivision::{
+    Boundary, Scheme, SubdivisionData, SubdivisionError, SubdivisionSurface, UvInterpolation,
+};
 pub use triangular::TriangularPatch;
 pub use trim::{TrimError, TrimLoop};
 

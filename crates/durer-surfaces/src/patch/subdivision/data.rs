@@ -26,6 +26,18 @@ pub enum Boundary {
     Smooth,
 }
 
+/// How texture coordinates go over a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UvInterpolation {
+    /// Linear from corner to corner; in a quadrilateral bilinear.
+    #[default]
+    Linear,
+    /// By the rules of the surface: they are the limit of the mesh that the faces make with their
+    /// texture coordinates. Where neighbours give a vertex different ones is a boundary of that
+    /// mesh; creases and corners of the surface are creases and corners of it.
+    Smooth,
+}
+
 /// From this sharpness on an edge or a vertex is sharp for ever.
 pub(super) const INFINITELY_SHARP: f64 = 10.0;
 
@@ -43,6 +55,8 @@ pub struct SubdivisionData {
     pub uv: Vec<[f64; 2]>,
     /// The numbers of the texture coordinates at the corners of each face; empty if there are none.
     pub uv_faces: Vec<Vec<u32>>,
+    /// How they go over a face.
+    pub uv_interpolation: UvInterpolation,
     /// Sharp edges: two vertices, and a sharpness; 10 or more is sharp for ever.
     pub creases: Vec<([u32; 2], f64)>,
     /// Sharp vertices, and their sharpness.
@@ -183,6 +197,9 @@ pub enum SubdivisionError {
         /// How many texture coordinates.
         uv: usize,
     },
+    /// Texture coordinates are to be smooth, and there are none.
+    #[error("subdivision: smooth texture coordinates are asked for, but there are none")]
+    NoUv,
     /// A face names texture coordinates that are not there.
     #[error("subdivision: face {face} names texture coordinates {index}, there are {count}")]
     UvIndex {
@@ -290,7 +307,8 @@ impl SubdivisionData {
             }
         }
         if self.uv_faces.is_empty() {
-            return Ok(());
+            let is_smooth = self.uv_interpolation == UvInterpolation::Smooth;
+            return if is_smooth { Err(Error::NoUv) } else { Ok(()) };
         }
         for face in 0..self.faces.len().max(self.uv_faces.len()) {
             let len = self.faces.get(face).map_or(0, Vec::len);

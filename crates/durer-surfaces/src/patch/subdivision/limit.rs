@@ -46,17 +46,28 @@ const MOST_KEPT: usize = 4096;
 
 /// A part of a face in its parameters: a square, or a triangle with this corner. In the middle of a
 /// triangle parameters run against those of the whole, and the width is negative.
+///
+/// Parameters near 1 count from there, so that they are as sharp as those near 0: a crossing may be
+/// far nearer to a vertex than two numbers beside 1 are to one another. As a tag of a root such a
+/// parameter has a minus sign, and `-0` is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) face: u32,
     pub(super) is_triangle: bool,
+    /// Which parameters count from 1.
+    is_far: [bool; 2],
     pub(super) from: [f64; 2],
     pub(super) width: f64,
 }
 
+/// The parameters of a face from a root's tag.
+pub(super) fn parameters(is_triangle: bool, tag: [f64; 2]) -> [f64; 2] {
+    clamped(is_triangle, tag.map(|x| if x.is_sign_negative() { 1.0 + x } else { x }))
+}
+
 impl Place {
     pub(super) fn of(face: u32, is_triangle: bool) -> Self {
-        Self { face, is_triangle, from: [0.0; 2], width: 1.0 }
+        Self { face, is_triangle, is_far: [false; 2], from: [0.0; 2], width: 1.0 }
     }
 
     /// The parameters of a corner; the fourth one of a triangle is that of the square.
@@ -69,14 +80,35 @@ impl Place {
     pub(super) fn quarter(&self, k: usize) -> Self {
         let width = 0.5 * self.width;
         let [a, b] = self.corner(k);
-        let from = [a * width + self.from[0], b * width + self.from[1]];
-        let is_turned = self.is_triangle && k == 3;
-        Self { from, width: if is_turned { -width } else { width }, ..*self }
+        let mut part = *self;
+        part.from = [a * width + self.from[0], b * width + self.from[1]];
+        if self.is_triangle && k == 3 {
+            part.width = -width;
+            return part;
+        }
+        part.width = width;
+        if self.width == 1.0 {
+            part.is_far = part.from.map(|x| x > 0.0);
+            part.from = part.from.map(|x| if x > 0.0 { x - 1.0 } else { x });
+        }
+        part
     }
 
-    /// The quarter that parameters of the face are in.
-    pub(super) fn quarter_at(&self, uv: [f64; 2]) -> usize {
-        let [u, v] = [0, 1].map(|k| uv[k] - self.from[k]);
+    /// A tag as parameters that count from 0 or from 1 as here, less those of the first corner.
+    fn within(&self, tag: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let from = match (self.is_far[k], tag[k].is_sign_negative()) {
+                (true, false) => tag[k] - 1.0,
+                (false, true) => tag[k] + 1.0,
+                _ => tag[k],
+            };
+            from - self.from[k]
+        })
+    }
+
+    /// The quarter that a root with this tag is in.
+    pub(super) fn quarter_at(&self, tag: [f64; 2]) -> usize {
+        let [u, v] = self.within(tag);
         let half = 0.5 * self.width;
         if self.is_triangle {
             let [u, v, half] = if half < 0.0 { [-u, -v, -half] } else { [u, v, half] };
@@ -98,15 +130,18 @@ impl Place {
         }
     }
 
-    /// Parameters of the face as parameters of the part.
-    pub(super) fn inner(&self, uv: [f64; 2]) -> [f64; 2] {
-        clamped(self.is_triangle, [0, 1].map(|k| (uv[k] - self.from[k]) / self.width))
+    /// The parameters of the part from a root's tag.
+    pub(super) fn inner(&self, tag: [f64; 2]) -> [f64; 2] {
+        clamped(self.is_triangle, self.within(tag).map(|x| x / self.width))
     }
 
-    /// Parameters of the part as parameters of the face.
-    fn outer(&self, uv: [f64; 2]) -> [f64; 2] {
+    /// Parameters of the part as the tag of a root.
+    pub(super) fn outer(&self, uv: [f64; 2]) -> [f64; 2] {
         let uv = clamped(self.is_triangle, uv);
-        [0, 1].map(|k| uv[k].mul_add(self.width, self.from[k]))
+        [0, 1].map(|k| {
+            let x = uv[k].mul_add(self.width, self.from[k]).abs();
+            if self.is_far[k] { -x } else { x }
+        })
     }
 }
 
@@ -121,7 +156,7 @@ pub(super) struct Node {
 
 impl Node {
     /// The four faces of the next step; `None` if it is a patch.
-    fn quarters(&self, plans: &[Plan]) -> Option<[Node; 4]> {
+    pub(super) fn quarters(&self, plans: &[Plan]) -> Option<[Node; 4]> {
         let Plan::Split { stencils, quarters, .. } = &plans[self.plan as usize] else { return None };
         let finer = refine(stencils, &self.points);
         Some([0, 1, 2, 3].map(|k: usize| Node {
@@ -137,11 +172,17 @@ impl Node {
         net(&plans[self.plan as usize], &self.points)
     }
 
-    /// The smooth vertices at its corners, those where patches do not end first.
+    /// The corner at which it is refined for ever, the first one if there are more.
+    pub(super) fn vertex(&self, plans: &[Plan]) -> Option<usize> {
+        let Plan::Split { quarters, .. } = &plans[self.plan as usize] else { return None };
+        quarters.iter().position(|q| matches!(plans[q.plan as usize], Plan::Split { .. }))
+    }
+
+    /// That vertex and what is round it, if it is smooth.
     pub(super) fn wheel<'a>(&self, plans: &'a [Plan]) -> Option<&'a Wheel> {
         let Plan::Split { wheels, .. } = &plans[self.plan as usize] else { return None };
-        let regular = if self.place.is_triangle { 6 } else { 4 };
-        wheels.iter().find(|w| w.ends.len() != regular).or_else(|| wheels.first())
+        let vertex = self.vertex(plans)?;
+        wheels.iter().find(|wheel| wheel.centre as usize == vertex)
     }
 }
 
@@ -190,7 +231,7 @@ pub(super) struct Tail {
     /// The first of its points, rounded, and all of them relative to that.
     base: [f64; 3],
     pub(super) relative: Box<[[f64; 3]]>,
-    finer: OnceLock<Box<Finer>>,
+    pub(super) finer: OnceLock<Box<Finer>>,
 }
 
 /// The four faces of a step.
@@ -222,7 +263,7 @@ impl Patch {
 }
 
 impl Refined {
-    fn new(node: Node, plans: &[Plan]) -> Self {
+    pub(super) fn new(node: Node, plans: &[Plan]) -> Self {
         let Some(net) = node.net(plans) else { return Self::Tail(Tail::new(node)) };
         let leaf = Leaf::new(node.place, &net);
         let hull = relative(net.points(), leaf.base).iter().map(|&[x, y, z, _]| [x, y, z]).collect();
@@ -405,11 +446,10 @@ impl Limit {
             for crossing in &lists.found {
                 let place = self.place(crossing, &lists.extra);
                 let mut crossing = *crossing;
-                crossing.uv = place.outer(crossing.uv);
                 crossing.face = place.face;
                 crossing.sign *= self.outward;
                 crossing.turn *= self.outward;
-                if let Some(root) = root(&at, &crossing, clamped(self.is_triangles, crossing.uv)) {
+                if let Some(root) = root(&at, &crossing, place.outer(crossing.uv)) {
                     roots.push(root);
                 }
             }
@@ -492,14 +532,14 @@ impl Limit {
             return;
         }
         // All of it is as near as the ray is known; the vertex stands for it.
-        let (place, wheel) = (tail.node.place, tail.node.wheel(&self.plans));
+        let (place, vertex) = (tail.node.place, tail.node.vertex(&self.plans));
         let middle = [if self.is_triangles { 1.0 / 3.0 } else { 0.5 }; 2];
         let [low, high] = sight.plane.unwrap_or(sight.s);
         let face = (self.leaves.len() + lists.extra.len()) as u32;
         lists.extra.push(Extra { place, room: sight.s[1] - sight.s[0] });
         lists.found.push(Found {
             face,
-            uv: wheel.map_or(middle, |wheel| place.corner(wheel.centre as usize)),
+            uv: vertex.map_or(middle, |k| place.corner(k)),
             radius: [1.0; 2],
             alone: [0.0; 2],
             s: 0.5 * (low + high),

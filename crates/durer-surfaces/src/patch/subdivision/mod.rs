@@ -29,6 +29,8 @@ mod data;
 mod limit;
 mod plan;
 mod point;
+mod sharp_normal;
+mod smooth_uv;
 mod topology;
 mod triangles;
 
@@ -43,10 +45,11 @@ use data::INFINITELY_SHARP;
 use durer_math::{Aabb, Dd, Dyadic, Isa, Point3};
 use durer_roots::quadratic::Quadratic;
 use limit::{AHEAD, Limit};
+use smooth_uv::SmoothUv;
 use std::sync::Arc;
 use topology::{Adjacency, Topology, apply, edge_of};
 
-pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError};
+pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError, UvInterpolation};
 
 /// The limit surface of a control mesh under Catmull and Clark's subdivision, or under Loop's.
 ///
@@ -54,7 +57,8 @@ pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError};
 /// whose stored normal is that of the faces as they are wound. Under Loop's rules a root's face is a
 /// triangle of the mesh, and its tag `(u, v)` in that, with `u + v <= 1`. Otherwise it is a
 /// quadrilateral, and its tag `(u, v)` in that: a face with four vertices is one, if all faces of the mesh have four;
-/// otherwise each face is as many as it has vertices ([`SubdivisionSurface::control_face`]).
+/// otherwise each face is as many as it has vertices ([`SubdivisionSurface::control_face`]). In a tag a
+/// number with a minus sign is that much less than 1, so that both ends are equally sharp.
 ///
 /// ```
 /// use durer_math::{Point3, Ray, Vec3};
@@ -88,6 +92,8 @@ pub struct SubdivisionSurface {
     /// Texture coordinates at the corners of each quadrilateral, of triangles with one more that is
     /// not read; empty if they are its parameters.
     uv: Arc<[[[f64; 2]; 4]]>,
+    /// Texture coordinates by the rules of the surface, if they are wanted.
+    smooth_uv: Option<Arc<SmoothUv>>,
     is_closed: bool,
 }
 
@@ -163,7 +169,9 @@ impl SubdivisionSurface {
         let mut mesh = topology(&data);
         let mut origins: Vec<u32> = (0..mesh.faces.len() as u32).collect();
         let corner_uv = |face: usize, k: usize| data.uv[data.uv_faces[face][k] as usize];
-        let has_uv = !data.uv_faces.is_empty();
+        let is_smooth = data.uv_interpolation == UvInterpolation::Smooth && !data.uv_faces.is_empty();
+        let has_uv = !is_smooth && !data.uv_faces.is_empty();
+        let control = is_smooth.then(|| mesh.clone());
         let mut uv: Vec<[[f64; 2]; 4]> = vec![];
         if data.scheme == Scheme::Loop {
             if has_uv {
@@ -191,6 +199,7 @@ impl SubdivisionSurface {
             is_missing[*hole as usize] = true;
         }
         let is_hole: Vec<bool> = origins.iter().map(|face| is_missing[*face as usize]).collect();
+        let smooth_uv = control.and_then(|control| SmoothUv::new(&data, &control, &is_hole)).map(Arc::new);
         let is_closed = data.holes.is_empty() && is_closed(&data);
         let limit = Limit::new(&mesh, &points, &is_hole, frame, ahead);
         let mut limit = limit.ok_or(SubdivisionError::Nothing("its faces do not make a surface"))?;
@@ -198,7 +207,7 @@ impl SubdivisionSurface {
             limit.outward = -1;
         }
         let limit = Arc::new(limit);
-        Ok(Self { data: Arc::new(data), limit, origins: origins.into(), uv: uv.into(), is_closed })
+        Ok(Self { data: Arc::new(data), limit, origins: origins.into(), uv: uv.into(), smooth_uv, is_closed })
     }
 
     /// The input that it was made from.
@@ -272,15 +281,18 @@ impl Surface for SubdivisionSurface {
         }
     }
 
-    /// Texture coordinates: those given at the corners of faces, bilinear between them and linear in
-    /// triangles; without any the parameters of the face.
+    /// Texture coordinates: those given at the corners of faces, by the rules of the surface, or bilinear
+    /// between them and linear in triangles; without any the parameters of the face.
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let mut point = Isa::detect().run(
             #[inline(always)]
             || self.limit.point(ray, root),
         );
-        if let Some(corners) = self.uv.get(root.face as usize) {
+        if let Some((uv, slopes)) = self.smooth_uv.as_ref().and_then(|uv| uv.at(root.face, root.tag)) {
+            point.uv = uv;
+            point.change_parameters(slopes, need);
+        } else if let Some(corners) = self.uv.get(root.face as usize) {
             match self.data.scheme {
                 Scheme::CatmullClark => map_uv(corners, &mut point, need),
                 Scheme::Loop => {

@@ -1,7 +1,8 @@
 //! Points of the limit surface, and on which side of a closed one a point is.
 
-use super::limit::{E_POINTS, Limit, MOST_STEPS, Place, Refined, Spot, Tail};
+use super::limit::{E_POINTS, Limit, MOST_STEPS, Place, Refined, Spot, Tail, parameters};
 use super::plan::limit;
+use super::sharp_normal::sharp_normal;
 use crate::patch::cell::sums;
 use crate::patch::point::{Jet, located};
 use crate::{All, LocalPoint, LocalRay, Root, RootKind, Side, SurfacePoint};
@@ -35,11 +36,13 @@ impl Limit {
             let k = place.quarter_at(root.tag);
             (spot, place) = (self.spots[first as usize + k], place.quarter(k));
         }
-        match spot {
+        let mut point = match spot {
             Spot::Leaf(k) => self.on_leaf(ray, root, &self.leaves[k as usize]),
             Spot::Tail(k) => self.in_corner(ray, root, &self.tails[k as usize]),
             Spot::Split(_) => SurfacePoint::unknown(self.centre),
-        }
+        };
+        point.uv = parameters(self.is_triangles, root.tag);
+        point
     }
 
     fn on_leaf(&self, ray: &LocalRay<'_>, root: &Root, leaf: &Leaf) -> SurfacePoint {
@@ -75,15 +78,18 @@ impl Limit {
             (less(p[1], p[0]) + less(p[2], p[3]), less(p[3], p[0]) + less(p[2], p[1]))
         };
         let by = 0.5 / node.place.width;
-        let (y, [tu, tv]) = match node.wheel(&self.plans) {
+        let unit = |n: Vec3| n * (1.0 / n.length());
+        let (y, n) = match node.wheel(&self.plans) {
             Some(wheel) => {
-                let [y, a, b] = limit(wheel, p);
-                (vector(y), [vector(a), vector(b)])
+                let [y, a, b] = limit(wheel, p).map(vector);
+                (y, unit(a.cross(b)))
             }
-            None => (vector(p[0]), [pu, pv]),
+            None => {
+                let y = vector(p[node.vertex(&self.plans).unwrap_or(0)]);
+                (y, sharp_normal(node, &self.plans).unwrap_or_else(|| unit(pu.cross(pv))))
+            }
         };
-        let n = tu.cross(tv);
-        let n = n * (f64::from(self.outward) / n.length());
+        let n = n * f64::from(self.outward);
         let jet = Jet::flat(y, pu * by, pv * by);
         let normal = n.is_finite().then_some((n, jet));
         let eta = 4.0 * POINT;

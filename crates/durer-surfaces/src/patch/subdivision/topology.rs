@@ -104,7 +104,7 @@ fn less_sharp(sharpness: f64) -> f64 {
 pub(super) struct Adjacency<'a> {
     mesh: &'a Topology,
     /// The face on the left of a directed edge, and the edge's place in it.
-    left: HashMap<[u32; 2], (usize, usize)>,
+    pub(super) left: HashMap<[u32; 2], (usize, usize)>,
 }
 
 /// A part of a mesh round one face: its numbers of points count as the second list says.

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 pub(super) struct Naive {
     scheme: Scheme,
-    vertices: Vec<Vec3>,
-    faces: Vec<Vec<u32>>,
+    pub(super) vertices: Vec<Vec3>,
+    pub(super) faces: Vec<Vec<u32>>,
     creases: BTreeMap<(u32, u32), f64>,
     corners: BTreeMap<u32, f64>,
 }
