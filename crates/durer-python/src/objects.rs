@@ -4,10 +4,10 @@ use crate::{formula, value_error};
 use durer::math::{Aabb, Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs,
-    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, Lattice, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData, Sweep,
-    SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, Warp,
+    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, Lattice, NamedQuadric,
+    NurbsData, Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism,
+    QuadricKind, Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData,
+    Sweep, SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -513,7 +513,8 @@ fn latticed(
     size: [usize; 3],
     moves: Vec<([usize; 3], V3)>,
 ) -> PyResult<Object> {
-    let mut lattice = Lattice::new(Aabb::from_points([point(low), point(high)]), size).map_err(value_error)?;
+    let mut lattice =
+        Lattice::new(Aabb::from_points([point(low), point(high)]), size).map_err(value_error)?;
     for (place, by) in moves {
         lattice.shift(place, vec3(by)).map_err(value_error)?;
     }

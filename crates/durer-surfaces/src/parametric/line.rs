@@ -10,7 +10,7 @@
 //! rounding.
 
 use super::Bounds;
-use super::piece::{Domain, Face, Piece, Unit, around, lane_of};
+use super::piece::{Domain, Face, Piece, Unit, around, lane_of, slope_of};
 use crate::patch::line::Line;
 use durer_formula::lanes;
 use durer_math::eft::scale2;
@@ -194,7 +194,7 @@ impl View<'_> {
             for c in 0..3 {
                 for k in 0..2 {
                     lane_of(&jets[c].v, lane)?;
-                    let (slope, err) = lane_of(&jets[c].d.d[k], lane)?;
+                    let (slope, err) = slope_of(&jets[c].d.d[k], lane)?;
                     let by = |x: f64| scale2(x, -self.unit.scale) * piece.width[k];
                     j[c][k] = by(slope);
                     j_err[c][k] = by(err) * ROUNDED + U * by(slope).abs() + f64::MIN_POSITIVE;
