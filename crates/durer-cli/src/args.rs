@@ -146,6 +146,10 @@ pub(crate) struct RenderArgs {
     /// Shows no progress bar.
     #[arg(long)]
     pub(crate) no_progress: bool,
+    /// Reports on stderr how many rays were traced, and what they needed on patches, NURBS,
+    /// parametric surfaces and the like.
+    #[arg(long)]
+    pub(crate) stats: bool,
 }
 
 /// What to ask of each ray.

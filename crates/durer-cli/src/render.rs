@@ -65,8 +65,34 @@ fn one(
             save(&rendered.film, &partial, format)?;
             return Err(Failure::Interrupted(partial));
         }
+        if args.stats {
+            report(&rendered.status);
+        }
         save(&rendered.film, output, format)
     })
+}
+
+/// Reports on stderr what a picture took.
+fn report(status: &Status) {
+    let (rays, steps) = (status.rays, status.steps);
+    eprintln!(
+        "  rays        {}: {} from the camera, {} reflected, {} transmitted, {} to lights",
+        rays.total(),
+        rays.camera,
+        rays.reflected,
+        rays.transmitted,
+        rays.shadow
+    );
+    if steps.rays > 0 {
+        let per_ray = |n: u64| n as f64 / steps.rays as f64;
+        eprintln!("  steps       of {} rays near patches, sweeps or parametric surfaces:", steps.rays);
+        eprintln!("    {:>10.3}  evaluations a ray", per_ray(steps.evaluations));
+        eprintln!("    {:>10.3}  cuts a ray", per_ray(steps.cuts));
+        eprintln!("    {:>10}  evaluations and cuts of one ray at most", steps.most);
+        eprintln!("    {:>10}  crossings proven by a certificate", steps.proven);
+        eprintln!("    {:>10}  crossings left unproven: grazing ones and clusters", steps.unproven);
+    }
+    eprintln!("  time        {:.3} s", status.elapsed.as_secs_f64());
 }
 
 /// Renders the picture, with a progress bar on stderr if that is a terminal.

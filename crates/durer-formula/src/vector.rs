@@ -71,6 +71,18 @@ impl VectorTape {
         Self { ops: kept.into(), outputs: roots.map(|root| names[root.0 as usize]) }
     }
 
+    /// Writes the steps of the tape down again, for inputs that are steps of the builder.
+    pub fn written(&self, builder: &mut Builder, inputs: [NodeId; 2]) -> Result<[NodeId; 3], FormulaError> {
+        let mut here: Vec<NodeId> = Vec::with_capacity(self.ops.len());
+        for &op in &*self.ops {
+            here.push(match op {
+                Op::Input(i) => inputs[i as usize],
+                op => builder.push(op.renamed(|id| here[id.0 as usize]))?,
+            });
+        }
+        Ok(self.outputs.map(|id| here[id.0 as usize]))
+    }
+
     /// Bounds of the values on eight boxes.
     pub fn bounds(&self, x: &[I8; 2]) -> [I8; 3] {
         self.run(x, &BOXES)

@@ -3,6 +3,7 @@
 use crate::stats::RayCounts;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
+use durer_surfaces::Steps;
 
 /// How a rendering reports its progress, and how it can be cancelled.
 #[derive(Clone, Copy, Default)]
@@ -20,6 +21,8 @@ pub struct Status {
     pub pixels: u64,
     /// Rays traced so far.
     pub rays: RayCounts,
+    /// What rays needed on patches and other surfaces of two parameters.
+    pub steps: Steps,
     /// Time since the start.
     pub elapsed: Duration,
 }
@@ -90,6 +93,7 @@ mod tests {
             pixels_done: 25,
             pixels: 100,
             rays: RayCounts { camera: 25, shadow: 25, ..RayCounts::default() },
+            steps: Steps::default(),
             elapsed: Duration::from_secs(2),
         };
         assert_eq!(status.remaining(), Some(Duration::from_secs(6)));

@@ -13,6 +13,7 @@ use crate::sampler::sample_tile;
 use crate::settings::{Region, RenderSettings};
 use crate::stats::RayCounts;
 use crate::world::World;
+use durer_surfaces::Steps;
 
 /// Tiles are squares of this many pixels.
 const TILE: u32 = 32;
@@ -92,6 +93,7 @@ fn render_here(
             pixels_done: 0,
             pixels: region.pixels(),
             rays: RayCounts::default(),
+            steps: Steps::default(),
             elapsed: core::time::Duration::ZERO,
         },
     ));
@@ -103,9 +105,12 @@ fn render_here(
                 return;
             }
             tracer.counts = RayCounts::default();
+            // What the thread counted before belongs to another picture.
+            Steps::take();
             let pixels = sample_tile(anti_aliasing, tile, (width, height), |places, colours| {
                 tracer.look(camera, (width, height), places, colours)
             });
+            let steps = Steps::take();
             if (pixels.len() as u64) < tile.pixels() {
                 skipped.fetch_add(1, Ordering::Relaxed);
             }
@@ -115,6 +120,7 @@ fn render_here(
             film.put(tile, &pixels);
             status.pixels_done += pixels.len() as u64;
             status.rays += tracer.counts;
+            status.steps += steps;
             status.elapsed = start.elapsed();
             progress.tell(status);
         },

@@ -83,5 +83,7 @@ pub use durer_surfaces::{
     NurbsError, Scheme, SewnData, SewnError, SubdivisionData, SubdivisionError, SweepSpline, Terrain,
     TerrainData, TrimError, TrimLoop, UvInterpolation, Warp,
 };
+/// A lattice of control points, and why there is none.
+pub use durer_surfaces::{DeformError, Lattice};
 /// A profile swept along any path.
 pub use durer_surfaces::{PathSpline, PathSweep, SweepData, SweepError};

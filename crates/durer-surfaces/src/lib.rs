@@ -77,6 +77,7 @@ mod sink;
 pub mod sor;
 pub mod sphere;
 pub mod sphere_sweep;
+mod steps;
 mod surface;
 mod swift;
 pub mod terrain;
@@ -99,7 +100,7 @@ pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};
 pub use crate::half_space::HalfSpace;
 pub use crate::ifs::{Ifs, IfsError, IfsLeaf};
-pub use crate::implicit::deform::{DeformError, Warp};
+pub use crate::implicit::deform::{DeformError, Lattice, Warp};
 pub use crate::implicit::level_set::LevelSet;
 pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};
 pub use crate::julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet};
@@ -107,7 +108,10 @@ pub use crate::lemon::LemonError;
 pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
-pub use crate::parametric::{Parametric, ParametricError, PathSpline, PathSweep, SweepData, SweepError};
+pub use crate::parametric::{
+    DeformSource, DeformStep, DeformedSurface, Parametric, ParametricError, PathSpline, PathSweep, SweepData,
+    SweepError,
+};
 pub use crate::patch::{
     BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, Sewn, SewnData, SewnError,
     SubdivisionData, SubdivisionError, SubdivisionSurface, TriangularPatch, TrimError, TrimLoop,
@@ -135,6 +139,7 @@ pub use crate::sink::{All, Any, Closest, FirstCrossing, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::sphere_sweep::{SphereSweep, SphereSweepError, SweepSpline};
+pub use crate::steps::Steps;
 pub use crate::surface::{Need, Root, RootKind, Side, Solidity, Surface};
 pub use crate::swift::{Crossings, meet_eight};
 pub use crate::terrain::{HeightField, HeightFieldError, Terrain, TerrainData, TerrainError};

@@ -1,12 +1,12 @@
-//! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  formula { ... }  modifiers }`.
+//! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  lattice { ... }  formula { ... }  modifiers }`.
 //!
-//! The deformations of a solid follow each other in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
+//! The deformations of an object follow each other in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
 
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_math::{Aabb, Vec3};
-use durer_scene::{Container, Warp};
+use durer_math::{Aabb, Point3, Vec3};
+use durer_scene::{Container, DeformError, Lattice, Warp};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Place, Result};
@@ -16,6 +16,8 @@ use crate::parser::Parser;
 
 /// More than this no solid is deformed in one block.
 const MOST_WARPS: usize = 64;
+/// Counts in a lattice are far below this.
+const MOST_COUNT: f64 = 65535.0;
 
 impl Parser<'_> {
     /// The solid and what is done to it, from the opening brace on.
@@ -26,7 +28,7 @@ impl Parser<'_> {
             return Err(self.unexpected(&lexeme, "the object that is deformed"));
         }
         let solid = self.object()?;
-        check(&solid)?;
+        check(&solid, true)?;
         let mut warps = Vec::new();
         loop {
             self.skip_comma()?;
@@ -68,6 +70,8 @@ impl Parser<'_> {
                     let [from, to] = r.stretch("bend")?;
                     Ok(Warp::Bend { axis, toward, degrees, from, to })
                 })?
+            } else if self.small_word("lattice")? {
+                self.warp(Self::lattice)?
             } else if self.small_word("formula")? {
                 self.warp(Self::inverse_map)?
             } else {
@@ -83,9 +87,55 @@ impl Parser<'_> {
         }
         if warps.is_empty() {
             let lexeme = self.next()?;
-            return Err(self.unexpected(&lexeme, "how it is deformed: `twist`, `taper`, `bend` or `formula`"));
+            return Err(self.unexpected(
+                &lexeme,
+                "how it is deformed: `twist`, `taper`, `bend`, `lattice` or `formula`",
+            ));
+        }
+        for warp in &warps {
+            fits(&solid, warp)?;
         }
         Ok(Shape::Deform(solid, warps.into()))
+    }
+
+    /// The box of a lattice, how many points it has along each axis, and which of them move.
+    fn lattice(&mut self) -> Result<Warp> {
+        self.peek()?;
+        let at = self.here();
+        let corners = [self.corner()?, self.corner()?].map(Point3::from);
+        let mut size = [0; 3];
+        for (size, axis) in size.iter_mut().zip(["x", "y", "z"]) {
+            let what = format!("how many points the lattice has along {axis}, 2 to 8");
+            *size = self.count(&what)?;
+        }
+        let wrong = |at: Place| move |e: DeformError| Error::invalid(at, e.to_string());
+        let mut lattice = Lattice::new(Aabb::from_points(corners), size).map_err(wrong(at))?;
+        while self.small_word("move")? {
+            self.peek()?;
+            let at = self.here();
+            let numbers = self.vector()?;
+            self.skip_comma()?;
+            let by = Vec3::from(self.vector()?);
+            self.skip_comma()?;
+            if numbers.iter().any(|x| x.fract() != 0.0 || !(0.0..=MOST_COUNT).contains(x)) {
+                let [i, j, k] = numbers;
+                let text = format!("a point of a lattice has whole numbers from 0 on, not <{i}, {j}, {k}>");
+                return Err(Error::invalid(at, text));
+            }
+            lattice.shift(numbers.map(|x| x as usize), by).map_err(wrong(at))?;
+        }
+        Ok(Warp::Lattice(Arc::new(lattice)))
+    }
+
+    /// A whole number and its comma.
+    fn count(&mut self, what: &str) -> Result<usize> {
+        self.peek()?;
+        let at = self.here();
+        let number = self.number(what)?;
+        if number.fract() != 0.0 || !(0.0..=MOST_COUNT).contains(&number) {
+            return Err(Error::invalid(at, format!("expected {what}, not {number}")));
+        }
+        Ok(number as usize)
     }
 
     /// The text in the braces of one of the words.
@@ -183,8 +233,43 @@ impl Parser<'_> {
     }
 }
 
-/// Refuses what has no formula.
-fn check(object: &Rc<Object>) -> Result<()> {
+/// Refuses a warp that goes the other way than an object needs: solids need to know where points
+/// came from, surfaces of parameters where they go to.
+fn fits(object: &Rc<Object>, warp: &Warp) -> Result<()> {
+    match &object.shape {
+        Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().try_for_each(|part| fits(part, warp)),
+        Shape::Deform(solid, _) => fits(solid, warp),
+        shape => match (warp, of_parameters(shape)) {
+            (Warp::Lattice(_), None) => {
+                let text = "a lattice has no inverse formula, so it deforms patches, nurbs, sewn and parametric surfaces, not this solid";
+                Err(Error::invalid(object.at, text))
+            }
+            (Warp::Inverse { .. }, Some(name)) => {
+                let text = format!(
+                    "a `formula` says where points came from, so it deforms solids; {name} takes twist, taper, bend and lattice"
+                );
+                Err(Error::invalid(object.at, text))
+            }
+            _ => Ok(()),
+        },
+    }
+}
+
+/// The name of a surface that is given by parameters.
+fn of_parameters(shape: &Shape) -> Option<&'static str> {
+    Some(match shape {
+        Shape::Patch(_) => "a patch",
+        Shape::TriangularPatch(_) => "a triangular patch",
+        Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Parametric(_) => "a parametric",
+        Shape::Sewn(_) => "a sewn surface",
+        _ => return None,
+    })
+}
+
+/// Refuses what has no formula. A surface given by parameters is deformed by itself, not as a part
+/// of an intersection, say.
+fn check(object: &Rc<Object>, alone: bool) -> Result<()> {
     let refuse = |why: &str| Err(Error::invalid(object.at, why));
     if !object.clips.is_empty() {
         return refuse("what is clipped cannot be deformed: an intersection can");
@@ -192,9 +277,16 @@ fn check(object: &Rc<Object>) -> Result<()> {
     if object.habits.open || matches!(object.shape, Shape::Isosurface(_, true)) {
         return refuse("what is open is no solid, so it cannot be deformed");
     }
+    if let Some(name) = of_parameters(&object.shape) {
+        if alone {
+            return Ok(());
+        }
+        return refuse(&format!("{name} is deformed by itself, not as a part of a solid of solids"));
+    }
     let without_formula = match &object.shape {
-        Shape::Union(parts) | Shape::Csg(_, parts) => return parts.iter().try_for_each(check),
-        Shape::Deform(solid, _) => return check(solid),
+        Shape::Union(parts) => return parts.iter().try_for_each(|part| check(part, alone)),
+        Shape::Csg(_, parts) => return parts.iter().try_for_each(|part| check(part, false)),
+        Shape::Deform(solid, _) => return check(solid, alone),
         Shape::Sphere { .. }
         | Shape::Box { .. }
         | Shape::Cylinder { .. }
@@ -222,12 +314,12 @@ fn check(object: &Rc<Object>) -> Result<()> {
         Shape::SphereSweep(..) => "a sphere sweep",
         Shape::Sor(_) => "a sor",
         Shape::Lathe(..) => "a lathe",
-        Shape::Patch(_) => "a patch",
-        Shape::TriangularPatch(_) => "a triangular patch",
-        Shape::Nurbs(_) => "a nurbs surface",
+        Shape::Patch(_)
+        | Shape::TriangularPatch(_)
+        | Shape::Nurbs(_)
+        | Shape::Parametric(_)
+        | Shape::Sewn(_) => return Ok(()),
         Shape::Subdivision(_) => "a subdivision surface",
-        Shape::Parametric(_) => "a parametric",
-        Shape::Sewn(_) => "a sewn surface",
         Shape::Ovus { .. } => "an ovus",
         Shape::Lemon { .. } => "a lemon",
         Shape::Julia(_) => "a Julia set",

@@ -8,6 +8,7 @@ mod blob_texture;
 mod build;
 mod camera_media;
 mod csg;
+mod deformed_surface;
 mod fold_transform;
 mod level_set;
 mod looks;
@@ -76,7 +77,7 @@ pub enum LowerErrorKind {
     Sheet(&'static str),
     /// The object has no formula, so it cannot be deformed.
     #[error(
-        "{0} cannot be deformed: spheres, boxes, cylinders, cones, planes, quadrics, tori, polynomials, superellipsoids, blobs, isosurfaces and solids of them can"
+        "{0} cannot be deformed: spheres, boxes, cylinders, cones, planes, quadrics, tori, polynomials, superellipsoids, blobs, isosurfaces and solids of them can; patches, nurbs, sewn and parametric surfaces by themselves"
     )]
     Deform(&'static str),
     /// A mesh refers to a texture that it does not have.

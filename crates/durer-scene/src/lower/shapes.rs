@@ -15,6 +15,7 @@ use durer_surfaces::terrain::{Heights, Sheet};
 
 use super::build::{Target, To};
 use super::camera_media::Enclosure;
+use super::deformed_surface::{self, Made};
 use super::{LowerErrorKind, fold_transform, level_set, named_quadric};
 use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 
@@ -200,11 +201,16 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             Err(nothing @ BlobError::Nothing) => return Ok(Built::Nothing(nothing.to_string())),
             made => add_closed(&mut target, made.map_err(shape_error)?, map),
         },
-        Shape::Deform(deform) => match level_set::deformed(deform)? {
-            None => {
-                return Ok(Built::Nothing("deform: nothing is left of this solid, so it is left out".into()));
-            }
-            Some(solid) => add_closed(&mut target, solid, map),
+        Shape::Deform(deform) => match deformed_surface::made(deform)? {
+            Some(Made::Nothing(why)) => return Ok(Built::Nothing(why)),
+            Some(Made::Surface(surface)) => add_closed(&mut target, *surface, map),
+            None => match level_set::deformed(deform)? {
+                None => {
+                    let why = "deform: nothing is left of this solid, so it is left out";
+                    return Ok(Built::Nothing(why.into()));
+                }
+                Some(solid) => add_closed(&mut target, solid, map),
+            },
         },
         shape => return flat(shape, map, target),
     }

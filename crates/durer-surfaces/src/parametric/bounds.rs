@@ -60,6 +60,20 @@ impl Bounds {
         })
     }
 
+    /// Whether a box is certainly within them.
+    pub(super) fn hold(&self, hull: &[Interval; 3]) -> bool {
+        if !(0..3).all(|c| self.low[c] <= hull[c].lo && hull[c].hi <= self.high[c]) {
+            return false;
+        }
+        self.ball.is_none_or(|(centre, radius)| {
+            let distance = (0..3).fold(0.0, |sum: f64, c| {
+                let far = (hull[c].hi - centre[c]).max(centre[c] - hull[c].lo);
+                far.mul_add(far, sum)
+            });
+            distance * ROUNDED <= radius * radius
+        })
+    }
+
     /// The same, at least, in units.
     pub(super) fn in_units(&self, unit: &Unit) -> Self {
         let mut out = self.clone();

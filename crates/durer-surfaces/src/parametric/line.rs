@@ -10,7 +10,7 @@
 //! rounding.
 
 use super::Bounds;
-use super::piece::{Domain, Face, Piece, Unit, around, lane_of};
+use super::piece::{Domain, Face, Piece, Unit, around, lane_of, slope_of};
 use crate::patch::line::Line;
 use durer_formula::lanes;
 use durer_math::eft::scale2;
@@ -56,7 +56,7 @@ pub(super) struct Found {
 }
 
 /// No parameters.
-const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+pub(super) const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
 
 impl View<'_> {
     /// Both functions at a point, and bounds on the errors of their values.
@@ -140,7 +140,9 @@ impl View<'_> {
             let Some(step) = self.step(piece, x) else { return false };
             x = [0, 1].map(|k| x[k] - step[k]);
             if (0..2).all(|k| step[k].abs() <= NEAR * piece.width[k]) {
-                if let Some(found) = self.proven(piece, x) {
+                let proven = self.proven(piece, x);
+                crate::steps::evaluated(1, proven.is_some());
+                if let Some(found) = proven {
                     // Another one may still be in the box if this one is outside.
                     let within = |k: usize| {
                         let ([from, to], [at, off]) = (piece.wide[k], [found.0.uv[k], found.0.radius[k]]);
@@ -166,6 +168,7 @@ impl View<'_> {
     /// A step of Newton's method.
     #[inline(always)]
     fn step(&self, piece: &Piece, x: [f64; 2]) -> Option<[f64; 2]> {
+        crate::steps::evaluated(1, false);
         let jets = self.face.tape.jet(x);
         let p = [0, 1, 2].map(|c: usize| scale2(jets[c].v - self.unit.centre[c], -self.unit.scale));
         let j = [0, 1, 2]
@@ -191,7 +194,7 @@ impl View<'_> {
             for c in 0..3 {
                 for k in 0..2 {
                     lane_of(&jets[c].v, lane)?;
-                    let (slope, err) = lane_of(&jets[c].d.d[k], lane)?;
+                    let (slope, err) = slope_of(&jets[c].d.d[k], lane)?;
                     let by = |x: f64| scale2(x, -self.unit.scale) * piece.width[k];
                     j[c][k] = by(slope);
                     j_err[c][k] = by(err) * ROUNDED + U * by(slope).abs() + f64::MIN_POSITIVE;

@@ -36,6 +36,7 @@
 mod bounds;
 mod build;
 mod crossings;
+mod deformed;
 mod line;
 mod outline;
 mod path;
@@ -45,6 +46,7 @@ mod sheet;
 mod subdivide;
 mod sweep;
 mod sweep_maps;
+mod winding;
 
 use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
@@ -57,8 +59,12 @@ use piece::Face;
 use sheet::Sheet;
 use std::sync::Arc;
 
+pub use deformed::{DeformSource, DeformStep, DeformedSurface};
 pub use path::PathSpline;
 pub use sweep::{PathSweep, SweepData, SweepError};
+
+/// Into so many parts each parameter is divided to see whether a container holds all of a surface.
+const CHECKED: usize = 64;
 
 /// Why a [`Parametric`] cannot exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -175,6 +181,25 @@ impl Parametric {
             Sheet::new(vec![Face::new(tape, domain)], &bounds, 0.0).map_err(|(_, refused)| refused)?;
         let sheet = sheet.ok_or(ParametricError::Nothing)?;
         Ok(Self { sheet: Arc::new(sheet) })
+    }
+
+    /// The map itself, if all of it is in its container.
+    fn whole_face(&self) -> Option<Face> {
+        let Sheet { faces, cut, unit, .. } = &*self.sheet;
+        let face = &faces[0];
+        if cut.are_none() {
+            return Some(face.clone());
+        }
+        let at = |k: usize, i: usize| {
+            let [from, to] = face.domain[k];
+            if i == CHECKED { to } else { from + (to - from) * (i as f64 / CHECKED as f64) }
+        };
+        let rows = (0..CHECKED * CHECKED).map(|n| (n % CHECKED, n / CHECKED));
+        let boxes: Vec<_> = rows.map(|(i, j)| [[at(0, i), at(0, i + 1)], [at(1, j), at(1, j + 1)]]).collect();
+        let mut pieces = Vec::with_capacity(boxes.len());
+        face.pieces(0, &boxes, unit, &mut pieces);
+        let holds = |piece: &piece::Piece| piece.is_bounded() && cut.hold(&piece.hull);
+        (pieces.len() == boxes.len() && pieces.iter().all(holds)).then(|| face.clone())
     }
 
     /// The rectangle of parameters.

@@ -92,7 +92,7 @@ impl Face {
                 let jets = face.tape.jets(&lanes(&core::array::from_fn(strip)));
                 let goes_on = jets.iter().all(|jet| {
                     let all = [&jet.v, &jet.d.d[0], &jet.d.d[1]];
-                    all.iter().all(|x| x.partial == 0 && x.jump == 0)
+                    all.iter().all(|x| x.partial == 0) && jet.v.jump == 0
                 });
                 if goes_on {
                     known[k][end] = far;
@@ -129,13 +129,13 @@ impl Face {
                 if (0..3).any(|c| jets[c].v.empty >> lane & 1 == 1) {
                     continue;
                 }
-                let flag = |of: fn(&I8) -> u8| {
-                    jets.iter().any(|jet| {
-                        let all = [&jet.v, &jet.d.d[0], &jet.d.d[1]];
-                        all.iter().any(|x| of(x) >> lane & 1 == 1)
-                    })
-                };
-                let (partial, jumps) = (flag(|x| x.partial), flag(|x| x.jump));
+                let partial = jets.iter().any(|jet| {
+                    let all = [&jet.v, &jet.d.d[0], &jet.d.d[1]];
+                    all.iter().any(|x| x.partial >> lane & 1 == 1)
+                });
+                // Where only slopes jump, at a kink, the values between two points differ by what
+                // some slopes between the two sides make of their distance: bounds of both hold.
+                let jumps = jets.iter().any(|jet| jet.v.jump >> lane & 1 == 1);
                 let width = own[lane].map(|[from, to]| to - from);
                 let mut piece = Piece {
                     face: number,
@@ -308,8 +308,14 @@ pub(super) fn around(x: [f64; 2], width: [f64; 2], r: f64) -> Domain {
     })
 }
 
-/// The value in a lane, in units, and how far off it may be.
+/// The value in a lane and how far off it may be, of one that does not jump.
 pub(super) fn lane_of(x: &I8, lane: usize) -> Option<(f64, f64)> {
     let bit = 1_u8 << lane;
-    ((x.partial | x.empty | x.jump) & bit == 0).then(|| about(x.lane(lane)))
+    if x.jump & bit == 0 { slope_of(x, lane) } else { None }
+}
+
+/// The slope in a lane and how far off it may be; at a kink it has all values between both sides.
+pub(super) fn slope_of(x: &I8, lane: usize) -> Option<(f64, f64)> {
+    let bit = 1_u8 << lane;
+    ((x.partial | x.empty) & bit == 0).then(|| about(x.lane(lane)))
 }

@@ -87,6 +87,7 @@ impl Sheet {
         let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
 
         let (n, bend) = self.normal(face, root.tag, &jet);
+        let n = n.map(|n| if self.is_turned(root.face) { -n } else { n });
         let n = n.unwrap_or_else(|| at.d * (-1.0 / at.d.length()));
         let tau = scale2(p.to_vec().max_abs(), -self.unit.scale) * (6.0 * U) + TINY;
         let eta = lost.x + lost.y + lost.z + self.error(face, root.tag);

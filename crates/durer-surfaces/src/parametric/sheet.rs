@@ -2,13 +2,14 @@
 
 use super::build::{self, Refused};
 use super::crossings::{distinct, root};
-use super::line::{Found, View};
+use super::line::{Found, NOWHERE, View};
 use super::piece::{Face, Piece, Unit};
 use super::{Bounds, subdivide};
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
 use crate::patch::line::Line;
-use crate::{CentredRay, LocalRay, Sink};
+use crate::patch::shell::FaceTrim;
+use crate::{CentredRay, LocalRay, Sink, steps};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, U, Vec3};
@@ -30,6 +31,10 @@ pub(super) struct Sheet {
     /// The bounds that cut it, in units.
     pub(super) cut: Bounds,
     gap: f64,
+    /// The maps whose normals point the other way; none if it is empty.
+    turned: Box<[bool]>,
+    /// What is cut out of each map; nothing if it is empty.
+    trims: Box<[Option<FaceTrim>]>,
     /// In the order of the tree.
     pieces: Box<[Piece]>,
     tree: Tree,
@@ -83,7 +88,30 @@ impl Sheet {
         let pieces = order.iter().map(|&i| all[i as usize]).collect();
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds_box.magnitude());
         let bounds = bounds_box.expanded(room);
-        Ok(Some(Self { faces: faces.into(), bounds, centre, unit, reach, cut, gap, pieces, tree }))
+        Ok(Some(Self {
+            faces: faces.into(),
+            bounds,
+            centre,
+            unit,
+            reach,
+            cut,
+            gap,
+            turned: Box::default(),
+            trims: Box::default(),
+            pieces,
+            tree,
+        }))
+    }
+
+    /// The sheet with the normals of some maps turned and parts of maps cut out.
+    pub(super) fn with_sides(mut self, turned: Vec<bool>, trims: Vec<Option<FaceTrim>>) -> Self {
+        (self.turned, self.trims) = (turned.into(), trims.into());
+        self
+    }
+
+    /// Whether the normal of a map points the other way.
+    pub(super) fn is_turned(&self, face: u32) -> bool {
+        self.turned.get(face as usize) == Some(&true)
     }
 
     /// A length in units.
@@ -118,10 +146,15 @@ impl Sheet {
     fn with_found(&self, ray: &LocalRay<'_>, range: (f64, f64), f: impl FnOnce(&CentredRay<'_>, &[Found])) {
         let at = ray.recentre(self.centre, self.unit.scale).sharp(1.0);
         let mut lists = LISTS.take();
+        let before = steps::before();
         self.meet(&at, &mut lists, range);
+        let mut unproven = 0;
         if !lists.found.is_empty() {
-            f(&at, distinct(&mut lists.found, &self.faces, self.gap));
+            let found = distinct(&mut lists.found, &self.faces, self.gap);
+            unproven = found.iter().filter(|found| found.sign == 0).count();
+            f(&at, found);
         }
+        steps::done(before, unproven);
         LISTS.set(lists);
     }
 
@@ -155,6 +188,7 @@ impl Sheet {
 
     fn meet_piece(&self, line: &Line, piece: &Piece, found: &mut Vec<Found>) {
         let view = View { line, face: &self.faces[piece.face as usize], unit: &self.unit, cut: &self.cut };
+        let first = found.len();
         match view.content(piece) {
             Content::Nothing => {}
             Content::AtMostOne(start) => {
@@ -164,5 +198,31 @@ impl Sheet {
             }
             Content::Unknown => subdivide::meet(&view, piece, found),
         }
+        if found.len() > first {
+            self.finish(piece.face, found, first);
+        }
+    }
+
+    /// Leaves out crossings of a map, from the first of these on, that are cut off, and turns the
+    /// others with the map.
+    fn finish(&self, face: u32, found: &mut Vec<Found>, first: usize) {
+        if self.is_turned(face) {
+            for found in &mut found[first..] {
+                (found.sign, found.turn) = (-found.sign, -found.turn);
+            }
+        }
+        let Some(Some(trim)) = self.trims.get(face as usize) else { return };
+        let mut kept = first;
+        for i in first..found.len() {
+            let mut crossing = found[i];
+            match trim.keeps(crossing.uv, crossing.radius) {
+                Some(false) => continue,
+                Some(true) => {}
+                None => (crossing.sign, crossing.only) = (0, NOWHERE),
+            }
+            found[kept] = crossing;
+            kept += 1;
+        }
+        found.truncate(kept);
     }
 }

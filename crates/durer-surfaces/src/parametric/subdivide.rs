@@ -34,6 +34,7 @@ pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
             continue;
         }
         cuts += 1;
+        crate::steps::cut();
         boxes.clear();
         boxes.push(piece.own);
         let mut change = piece.change();

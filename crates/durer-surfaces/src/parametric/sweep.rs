@@ -21,22 +21,21 @@
 
 use super::bounds::Bounds;
 use super::build::Refused;
-use super::crossings::{on_border, root};
 use super::line::Found;
 use super::outline::{centre, oriented};
 use super::path::{PathSpline, framed};
 use super::sheet::Sheet;
 use super::sweep_maps::{Maps, OVERLAP};
+use super::winding::{self, Turn, face_outside, kept_turns, pour};
 use crate::compose::clip::Algebraic;
-use crate::mesh::Sorted;
 use crate::packet::FilterSource;
 use crate::prism::curved::Bezier;
 use crate::{
-    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
+    Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
 use durer_formula::FormulaError;
-use durer_math::{Aabb, Ray, Vec3};
+use durer_math::{Aabb, Vec3};
 use std::sync::Arc;
 
 /// Why a [`PathSweep`] cannot exist. Knots count from 0.
@@ -121,10 +120,6 @@ pub struct PathSweep {
     open: bool,
 }
 
-/// How far a point that starts a ray may be from where the ray is thought to start: the roundings of
-/// three coordinates relative to the centre and of the place along the ray, as a part of the largest.
-const START: f64 = 8.0 * durer_math::U;
-
 impl PathSweep {
     /// The solid with flat caps.
     pub fn new(data: SweepData) -> Result<Self, SweepError> {
@@ -193,21 +188,7 @@ impl PathSweep {
             let walls = self.walls as u32;
             return self.sheet.roots(ray, sink, |face| face < walls);
         }
-        self.sheet.with_all(ray, |at, found| {
-            let mut roots = Sorted::new();
-            for Turn { found, sign, .. } in self.turns(found) {
-                if let Some(root) = root(at, &found) {
-                    let kind = match (sign, root.kind) {
-                        (0, _) => RootKind::Grazing,
-                        (_, RootKind::Grazing) => RootKind::Cluster,
-                        (_, kind) => kind,
-                    };
-                    roots.push(Root { sign, kind, ..root });
-                }
-            }
-            // Going in stays before coming out, also where both are at one place.
-            roots.pour_in_turn(sink);
-        });
+        self.sheet.with_all(ray, |at, found| pour(at, &self.turns(found), sink));
     }
 
     /// Where the winding number along a line leaves 0 or comes back to it, ascending.
@@ -215,8 +196,7 @@ impl PathSweep {
         let mut all = Vec::with_capacity(found.len());
         let mut caps: [Option<Turn>; 2] = [None; 2];
         for found in found {
-            let sign = if found.sign == 0 { found.turn } else { found.sign };
-            let turn = Turn { found: *found, sign, weight: i32::from(sign) };
+            let turn = Turn::new(found);
             match (found.face as usize).checked_sub(self.walls) {
                 None => all.push(turn),
                 // All of a cap is in one plane: what is in it comes together.
@@ -240,42 +220,7 @@ impl PathSweep {
                 all.swap(k - 1, k);
             }
         }
-        self.close(&mut all);
-        let mut count = 0;
-        all.retain_mut(|turn| {
-            let before = count;
-            // Normals point outward: a crossing against them goes into one more turn.
-            count -= turn.weight;
-            turn.sign = match (before, count) {
-                (0, 0) if turn.weight == 0 => 0,
-                (0, after) if after != 0 => -1,
-                (_, 0) if before != 0 => 1,
-                _ => return false,
-            };
-            true
-        });
-        all
-    }
-
-    /// The winding number is 0 far away on both sides. If it is not, one crossing is there that may
-    /// as well be a miss, or one tangent may cross: the first that is within its error of an edge of
-    /// a face, or unproven, is changed.
-    fn close(&self, all: &mut Vec<Turn>) {
-        let missing: i32 = -all.iter().map(|turn| turn.weight).sum::<i32>();
-        if missing == 0 {
-            return;
-        }
-        if let Some(turn) = all.iter_mut().find(|turn| turn.weight == 0) {
-            turn.weight = missing;
-            return;
-        }
-        let faces = &self.sheet.faces;
-        let at = all.iter().position(|turn| {
-            turn.weight == -missing && (turn.found.sign == 0 || on_border(&turn.found, faces))
-        });
-        if let Some(at) = at {
-            all.remove(at);
-        }
+        kept_turns(all, &self.sheet.faces)
     }
 
     /// The parameters along the path and along the profile: whole numbers count spans and pieces.
@@ -291,16 +236,6 @@ impl PathSweep {
             [spans, (cap - self.pieces) as f64 + tag[1]]
         }
     }
-}
-
-/// A crossing that changes the winding number.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    found: Found,
-    /// The sign of the normal along the line; then that of the solid: -1 enters it.
-    sign: i8,
-    /// By how much the number changes.
-    weight: i32,
 }
 
 /// Equal if they are made of the same.
@@ -325,10 +260,8 @@ impl Surface for PathSweep {
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, _need: Need) -> SurfacePoint {
         let mut point = self.sheet.point(ray, root);
-        // Where the profile overlaps itself the solid's outside may be behind the normal.
-        let along = point.ng.to_vec().dot(ray.d);
-        if root.sign != 0 && !self.open && along != 0.0 && (along > 0.0) != (root.sign > 0) {
-            (point.ng, point.ns) = (-point.ng, -point.ns);
+        if !self.open {
+            face_outside(&mut point, ray, root);
         }
         point.uv = self.uv(root.face as usize, root.tag);
         (point.dpdu, point.dpdv) = (point.dpdv, point.dpdu);
@@ -340,32 +273,10 @@ impl Surface for PathSweep {
     }
 
     fn side(&self, point: &LocalPoint<'_>) -> Side {
-        let held = self.sheet.bounds.expanded(point.p_err);
-        if self.open || !(0..3).all(|k| held.min[k] <= point.p[k] && point.p[k] <= held.max[k]) {
+        if self.open {
             return Side::Out;
         }
-        // Any direction will do; this one is parallel to no likely face.
-        let ray = Ray::new(point.p, Vec3::new(0.351, 0.637, 0.686));
-        let mut side = Side::Out;
-        self.sheet.with_all(&LocalRay::new(&ray), |at, found| {
-            let start = -at.shift();
-            let room = self.sheet.in_units(2.0 * point.p_err.max_abs() + START * point.p.to_vec().max_abs());
-            for turn in self.turns(found) {
-                if (turn.found.s - start).abs() <= turn.found.s_err + room {
-                    side = Side::On;
-                    return;
-                }
-                if turn.found.s > start {
-                    break;
-                }
-                match turn.sign {
-                    -1 => side = Side::In,
-                    1 => side = Side::Out,
-                    _ => {}
-                }
-            }
-        });
-        side
+        winding::side(&self.sheet, point, |found| self.turns(found))
     }
 }
 

@@ -15,6 +15,7 @@ use super::exact::Exact;
 use super::net::Homogeneous;
 use super::subdivide;
 use crate::CentredRay;
+use crate::steps;
 use durer_math::U;
 use durer_math::eft::two_diff;
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
@@ -354,12 +355,18 @@ impl<'a> View<'a> {
     pub(super) fn zero(&self, x: [f64; 2], limits: &Limits, region: &[[f64; 2]; 2]) -> Option<Zero> {
         // Errors are bounded up to the cell's edge.
         let within = region.map(|[from, to]| [from.max(-EDGE), to.min(1.0 + EDGE)]);
-        limits.zero(
+        let mut evaluations = 0;
+        let zero = limits.zero(
             x,
             (region, &within),
             #[inline(always)]
-            |x| self.local(&self.cell.at(self.rational, x)),
-        )
+            |x| {
+                evaluations += 1;
+                self.local(&self.cell.at(self.rational, x))
+            },
+        );
+        steps::evaluated(evaluations, zero.is_some());
+        zero
     }
 
     /// A parameter of the cell as one of the patch.

@@ -29,9 +29,10 @@
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes")]
 
 mod cell;
+pub(crate) mod composed;
 mod exact;
 pub(crate) mod line;
-mod net;
+pub(crate) mod net;
 mod nurbs;
 mod point;
 mod seal;
@@ -42,7 +43,7 @@ mod subdivide;
 mod subdivision;
 mod surface;
 mod triangle_net;
-mod triangular;
+pub(crate) mod triangular;
 mod trim;
 
 use crate::{Need, Root, SurfacePoint};
@@ -51,6 +52,9 @@ use net::{FaceNet, Net};
 use shell::Shell;
 use std::sync::Arc;
 use surface::{Patches, surface_of_patches};
+
+pub(crate) use composed::{Nets, Source, shells};
+pub(crate) use triangle_net::binomial;
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
 pub use sewn::{Sewn, SewnData, SewnError};
@@ -179,6 +183,11 @@ impl BezierPatch {
         self
     }
 
+    /// The texture coordinates of the corners.
+    pub(crate) fn corners(&self) -> &[[f64; 2]; 4] {
+        &self.corners
+    }
+
     /// The number of points in a row, and of rows.
     pub fn size(&self) -> [usize; 2] {
         self.size
@@ -192,7 +201,7 @@ impl BezierPatch {
 
 /// Texture coordinates that are given at the corners of a patch and bilinear between them, and the
 /// slopes by them of a surface with these slopes by the parameters.
-fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Need) {
+pub(crate) fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Need) {
     let ([u, v], [a, b, c, d]) = (point.uv, corners);
     let mut jacobian = [[0.0; 2]; 2];
     for k in 0..2 {

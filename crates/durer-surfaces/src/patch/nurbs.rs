@@ -345,6 +345,12 @@ impl Parts {
         [ends.map(|[from, _]| from), ends.map(|[from, to]| to - from)]
     }
 
+    /// The trims of a patch, if there are any.
+    pub(super) fn trim(&self, face: usize) -> Option<FaceTrim> {
+        let [from, width] = self.span(face);
+        self.trims.clone().map(|trims| FaceTrim { trims, from, width })
+    }
+
     /// The same as parts of the whole.
     pub(super) fn part(&self, face: usize) -> [[f64; 2]; 2] {
         let [from, width] = self.span(face);
@@ -363,13 +369,17 @@ impl Nurbs {
     /// The surface of these points and knots.
     pub fn new(data: NurbsData) -> Result<Self, NurbsError> {
         let parts = Parts::new(&data)?;
-        let trim = |face: usize| {
-            let [from, width] = parts.span(face);
-            parts.trims.clone().map(|trims| FaceTrim { trims, from, width })
-        };
-        let shell = Shell::trimmed(&parts.nets, trim, 0.0).ok_or(NurbsError::Nothing)?;
+        let shell = Shell::trimmed(&parts.nets, |face| parts.trim(face), 0.0).ok_or(NurbsError::Nothing)?;
         let spans = (0..parts.nets.len()).map(|face| parts.part(face)).collect();
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans })
+    }
+
+    /// Puts the parameters of the whole surface, from 0 to 1, in the place of those of a patch.
+    pub(crate) fn spread_uv(&self, face: u32, point: &mut SurfacePoint) {
+        if let Some([from, width]) = self.spans.get(face as usize) {
+            point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
+            (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
+        }
     }
 
     /// The input that it was made from.
@@ -422,10 +432,7 @@ impl Patches for Nurbs {
 
     /// Texture coordinates: the parameters, from 0 to 1 over the whole surface.
     fn map_uv(&self, root: &Root, point: &mut SurfacePoint, _need: Need) {
-        if let Some([from, width]) = self.spans.get(root.face as usize) {
-            point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
-            (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
-        }
+        self.spread_uv(root.face, point);
     }
 }
 

@@ -211,7 +211,7 @@ pub(super) fn located(
 impl Shell {
     /// The point of a root: with its bounds and its normal, and slopes along the parameters.
     #[inline(never)]
-    pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
+    pub(crate) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
         Isa::detect().run(
             #[inline(always)]
             || self.point_here(ray, root),
@@ -235,7 +235,7 @@ impl Shell {
 impl SurfacePoint {
     /// Puts slopes along other coordinates in the place of those along the parameters, with the
     /// slopes of these coordinates along the parameters.
-    pub(super) fn change_parameters(&mut self, [[p, q], [r, s]]: [[f64; 2]; 2], need: Need) {
+    pub(crate) fn change_parameters(&mut self, [[p, q], [r, s]]: [[f64; 2]; 2], need: Need) {
         let det = p * s - q * r;
         if need.contains(Need::DERIVATIVES) && det != 0.0 {
             let (du, dv, by) = (self.dpdu, self.dpdv, 1.0 / det);

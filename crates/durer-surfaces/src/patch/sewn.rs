@@ -133,10 +133,15 @@ impl Sewn {
         }
         let of = |(i, surface)| Parts::new(surface).map_err(|why| SewnError::Surface { number: i + 1, why });
         let parts: Vec<Parts> = data.surfaces.iter().enumerate().map(of).collect::<Result<_, _>>()?;
+        Self::of_parts(data, &parts)
+    }
+
+    /// The object of these surfaces' patches.
+    pub(super) fn of_parts(data: SewnData, parts: &[Parts]) -> Result<Self, SewnError> {
         let (mut first, mut spans, mut nets, mut trims) = (vec![], vec![], vec![], vec![]);
         // Gaps are closed only where entries and exits must alternate.
         let seal = if data.closed { data.seal } else { 0.0 };
-        for parts in &parts {
+        for parts in parts {
             first.push(nets.len());
             let own = parts.trims.clone();
             let own = own.or_else(|| (seal > 0.0).then(|| Arc::new(Trims::none(parts.domain()))));
@@ -154,7 +159,7 @@ impl Sewn {
         let mut shell = Shell::trimmed(&nets, |face| trims[face].clone(), seal).ok_or(nothing)?;
         if data.closed {
             let periodic: Vec<_> = data.surfaces.iter().map(|s| s.periodic).collect();
-            let surfaces = Surfaces { parts: &parts, first: &first, periodic: &periodic, shell: &shell };
+            let surfaces = Surfaces { parts, first: &first, periodic: &periodic, shell: &shell };
             let groups = surfaces.joined(shell.seal)?;
             let surface_of: Vec<usize> =
                 (0..nets.len()).map(|face| first.partition_point(|f| *f <= face) - 1).collect();
@@ -165,6 +170,14 @@ impl Sewn {
             shell.turn_outward(&group_of)?;
         }
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: spans.into() })
+    }
+
+    /// Puts the parameters of the whole surface, from 0 to 1, in the place of those of a patch.
+    pub(crate) fn spread_uv(&self, face: u32, point: &mut SurfacePoint) {
+        if let Some([from, width]) = self.spans.get(face as usize) {
+            point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
+            (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
+        }
     }
 
     /// The input that it was made from.
@@ -242,10 +255,7 @@ impl Patches for Sewn {
     }
 
     fn map_uv(&self, root: &Root, point: &mut SurfacePoint, _need: Need) {
-        if let Some([from, width]) = self.spans.get(root.face as usize) {
-            point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
-            (point.dpdu, point.dpdv) = (point.dpdu * (1.0 / width[0]), point.dpdv * (1.0 / width[1]));
-        }
+        self.spread_uv(root.face, point);
     }
 
     fn solidity(&self) -> Solidity {

@@ -7,7 +7,7 @@ use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
 use crate::blob::{Along, Inner, Tree};
 use crate::mesh::Sorted;
-use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
+use crate::{CentredRay, LocalRay, Root, RootKind, Sink, steps};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
@@ -36,7 +36,7 @@ pub(crate) struct Face {
 /// The trims of a face, and the parameters that they count by: where the face's begin and how far they
 /// go on.
 #[derive(Clone, Debug)]
-pub(super) struct FaceTrim {
+pub(crate) struct FaceTrim {
     pub(super) trims: Arc<Trims>,
     pub(super) from: [f64; 2],
     pub(super) width: [f64; 2],
@@ -44,7 +44,7 @@ pub(super) struct FaceTrim {
 
 impl FaceTrim {
     /// Whether parameters of the face within a distance stay.
-    fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
+    pub(crate) fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
         let (at, off) = self.as_knots(uv, radius);
         self.trims.keeps(at, off)
     }
@@ -63,11 +63,11 @@ impl FaceTrim {
 /// Patches in units about a common centre.
 #[derive(Clone, Debug)]
 pub(crate) struct Shell {
-    pub(super) bounds: Aabb,
-    pub(super) centre: Point3,
+    pub(crate) bounds: Aabb,
+    pub(crate) centre: Point3,
     pub(super) scale: i32,
     /// The radius of a ball about the centre that holds everything.
-    pub(super) reach: f64,
+    pub(crate) reach: f64,
     pub(super) rational: bool,
     pub(super) faces: Box<[Face]>,
     /// The control points of the faces in double-double.
@@ -251,6 +251,7 @@ impl Shell {
     fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
+        let (before, mut unproven) = (steps::before(), 0);
         if self.seal > 0.0 {
             self.meet_sealed(&at, &mut lists);
         } else {
@@ -262,11 +263,13 @@ impl Shell {
             for crossing in found {
                 let tag = self.faces[crossing.face as usize].clamped(crossing.uv);
                 if let Some(root) = root(&at, crossing, tag) {
+                    unproven += usize::from(root.kind != RootKind::Simple);
                     roots.push(root);
                 }
             }
             roots.pour(sink);
         }
+        steps::done(before, unproven);
         LISTS.set(lists);
     }
 

@@ -252,7 +252,12 @@ fn in_double(
                 limits.e_j[i] = (2.0 * degree).mul_add(limits.e[i], 16.0 * degree * degree * U * most * wide);
             }
             let region = [[-MARGIN, 1.0 + MARGIN]; 2];
-            let zero = limits.zero([0.5 + x, 0.5 + y], (&region, &region), |x| part.at(nu, x));
+            let mut evaluations = 0;
+            let zero = limits.zero([0.5 + x, 0.5 + y], (&region, &region), |x| {
+                evaluations += 1;
+                part.at(nu, x)
+            });
+            crate::steps::evaluated(evaluations, zero.is_some());
             if let Some(zero) = zero {
                 if touches(&zero, [0.0; 2], [1.0; 2]) {
                     let in_cell = |k: usize| zero.x[k].mul_add(part.width[k], part.from[k]);
@@ -267,6 +272,7 @@ fn in_double(
             }
         }
         steps += 1;
+        crate::steps::cut();
         if part.is_noise(slow) || steps > MOST_STEPS {
             left += 1;
             if left > MOST_OPEN {
@@ -373,6 +379,7 @@ fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
             }
         }
         steps += 1;
+        crate::steps::cut();
         if part.is_noise(slow) || steps > MOST_STEPS {
             double += 1;
             if double > MOST_DOUBLE || !in_double(view, exact, (part.from, part.width), out) {

@@ -101,7 +101,7 @@ fn step(points: &[Homogeneous<Dd>], side: usize, [u, v]: [f64; 2]) -> Vec<Homoge
     out
 }
 
-fn binomial(n: usize, k: usize) -> f64 {
+pub(crate) fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
 }
 

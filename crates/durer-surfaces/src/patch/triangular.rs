@@ -86,9 +86,7 @@ impl TriangularPatch {
             return Err(PatchError::TriangleCount { side, needed: count(side), len: points.len() });
         }
         check_points(points, WEIGHTS)?;
-        let net = Net::new([points.len(), 1], points);
-        let face = FaceNet::Triangle(TriangleNet { side, points: net.points, lost: LOST });
-        let shell = Shell::new(&[face]).ok_or(PatchError::Nothing)?;
+        let shell = Shell::new(&[face_net(side, points)]).ok_or(PatchError::Nothing)?;
         Ok(Self { side, points: points.into(), corners: TRIANGLE, shell: Arc::new(shell) })
     }
 
@@ -100,6 +98,16 @@ impl TriangularPatch {
         self
     }
 
+    /// The texture coordinates of the corners.
+    pub(crate) fn corners(&self) -> &[[f64; 2]; 3] {
+        &self.corners
+    }
+
+    /// The control points as a face.
+    pub(super) fn net(&self) -> FaceNet {
+        face_net(self.side, &self.points)
+    }
+
     /// The number of points along a side: the degree and one.
     pub fn side(&self) -> usize {
         self.side
@@ -109,6 +117,11 @@ impl TriangularPatch {
     pub fn points(&self) -> &[[f64; 4]] {
         &self.points
     }
+}
+
+fn face_net(side: usize, points: &[[f64; 4]]) -> FaceNet {
+    let net = Net::new([points.len(), 1], points);
+    FaceNet::Triangle(TriangleNet { side, points: net.points, lost: LOST })
 }
 
 /// Patches are equal if their nets and texture coordinates are.
@@ -135,7 +148,7 @@ impl Patches for TriangularPatch {
 
 /// Texture coordinates that are given at the corners (0, 0), (1, 0) and (0, 1) and linear between
 /// them, and the slopes by them of a surface with these slopes by the parameters.
-pub(super) fn map_uv(corners: &[[f64; 2]; 3], point: &mut SurfacePoint, need: Need) {
+pub(crate) fn map_uv(corners: &[[f64; 2]; 3], point: &mut SurfacePoint, need: Need) {
     let ([u, v], [a, b, c]) = (point.uv, corners);
     let [[p, q], [r, s]] = [0, 1].map(|k| [b[k] - a[k], c[k] - a[k]]);
     point.uv = [a[0] + (u * p + v * q), a[1] + (u * r + v * s)];

@@ -243,6 +243,8 @@ pub(crate) fn was<T: Real>(warp: &Warp, p: &[T; 3]) -> [T; 3] {
             let three = T::of(3.0).mul(&p[0]);
             q[1] = p[1].sub(&T::of(0.125).mul(&three.sin()));
         }
+        // It has no inverse, so solids do not take it.
+        Warp::Lattice(_) => {}
     }
     q
 }

@@ -20,7 +20,7 @@
 use super::{DeformError, Map, Stretch, columns, direction};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
 use durer_formula::{FormulaError, NodeId};
-use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
+use durer_math::{Aabb, Affine, Function, Interval, Vec3, elementary};
 
 /// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge,
 /// near -1, is told from it by half of this squared.
@@ -105,6 +105,20 @@ impl Bend {
 }
 
 impl Map for Bend {
+    fn applied(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+        let (from, to) = (pen.number(self.stretch.from)?, pen.number(self.stretch.to)?);
+        let radius = pen.enclosed(self.radius)?;
+        let above = pen.max(z, from)?;
+        let held = pen.min(above, to)?;
+        let (along, beyond, u) = (pen.sub(held, from)?, pen.sub(z, held)?, pen.sub(radius, x)?);
+        let a = pen.div(along, radius)?;
+        let (s, c) = (pen.of(Function::Sin, a)?, pen.of(Function::Cos, a)?);
+        let (uc, us) = (pen.mul(u, c)?, pen.mul(u, s)?);
+        let (bs, bc) = (pen.mul(beyond, s)?, pen.mul(beyond, c)?);
+        let (x, z) = (pen.sub(radius, uc)?, pen.add(from, us)?);
+        Ok([pen.add(x, bs)?, y, pen.add(z, bc)?])
+    }
+
     fn image(&self, [x, y, z]: [Interval; 3]) -> [Interval; 3] {
         let (from, to) = (Interval::from(self.stretch.from), Interval::from(self.stretch.to));
         let held = z.max(from).min(to);

@@ -17,6 +17,7 @@
 
 mod bend;
 mod inverse;
+mod lattice;
 mod turn;
 
 use super::level_set::LevelSet;
@@ -27,6 +28,9 @@ use durer_formula::{Formula, FormulaError, NodeId};
 use durer_math::{Aabb, Affine, AffineError, Interval, Point3, Vec3};
 use std::sync::Arc;
 use turn::{Taper, Twist};
+
+pub use lattice::Lattice;
+pub(crate) use lattice::bernstein;
 
 /// A map of space. The first three act about an axis through the origin, along which heights are
 /// measured, between two of them: below the lower one nothing moves, and above the upper one all
@@ -78,6 +82,9 @@ pub enum Warp {
         /// The box, in which they must be shown to have an inverse.
         within: Aabb,
     },
+    /// Moves what is in a box with a lattice of control points. It has no inverse formula, so it
+    /// deforms only surfaces that are given by parameters.
+    Lattice(Arc<Lattice>),
 }
 
 /// Why a deformed solid cannot exist.
@@ -148,6 +155,54 @@ pub enum DeformError {
         "formula: the functions may take two points of their box to one: bounds of the determinant of their slopes, each within its own over the box, are {} to {}, and do not exclude 0", .0.lo, .0.hi
     )]
     Injective(Interval),
+    /// A lattice's box is flat or infinite.
+    #[error("lattice: its box must be finite and not flat, from <{}, {}, {}> to <{}, {}, {}>", .0.min.x, .0.min.y, .0.min.z, .0.max.x, .0.max.y, .0.max.z)]
+    LatticeBox(Aabb),
+    /// A lattice has too few or too many points.
+    #[error("lattice: it has 2 to 8 points along each axis, got {} by {} by {}", .0[0], .0[1], .0[2])]
+    LatticeSize([usize; 3]),
+    /// A point of a lattice does not exist.
+    #[error("lattice: there is no point <{}, {}, {}> in a lattice of {} by {} by {}, which counts from 0", point[0], point[1], point[2], size[0], size[1], size[2])]
+    LatticePoint {
+        /// The point.
+        point: [usize; 3],
+        /// How many there are along each axis.
+        size: [usize; 3],
+    },
+    /// A point of a lattice moves by something that is no number.
+    #[error("lattice: a point must move by finite numbers, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
+    LatticeMove(Vec3),
+    /// A lattice has no inverse formula.
+    #[error(
+        "lattice: it deforms patches, NURBS and parametric surfaces; a solid of formulas would need its inverse, which has no formula"
+    )]
+    LatticeInverse,
+    /// Functions are given that take points back.
+    #[error(
+        "formula: it says where points came from, so it deforms solids; what is given by parameters needs the map itself: twist, taper, bend or lattice"
+    )]
+    Forward,
+    /// A parametric surface is not all in its container.
+    #[error(
+        "deform: its container must hold all of a parametric surface that is deformed, since the container is not: enlarge its `contained_by`"
+    )]
+    Cut,
+    /// A sealed solid is deformed.
+    #[error(
+        "deform: a closed sewn surface with trims or a seal cannot be deformed so: the seal is a distance, which a deformation changes"
+    )]
+    Sealed,
+    /// A deformed surface has no bounds.
+    #[error("deform: the deformed surface has no bounds near u = {u}, v = {v} of a patch")]
+    Torn {
+        /// The first parameter.
+        u: f64,
+        /// The second parameter.
+        v: f64,
+    },
+    /// The patches of a sewn surface no longer fit.
+    #[error("deform: {0}")]
+    Sewn(#[from] crate::SewnError),
     /// The functions take something else than a point.
     #[error("formula: its functions must have three arguments, one has {0}")]
     Arguments(u32),
@@ -204,6 +259,7 @@ impl LevelSet {
                 self.warped(&frame, &bend)
             }
             Warp::Inverse { ref functions, within } => inverse::deformed(self, functions, within),
+            Warp::Lattice(_) => Err(DeformError::LatticeInverse),
         }
     }
 
@@ -236,8 +292,54 @@ impl LevelSet {
     }
 }
 
+impl Warp {
+    /// Writes down the place to which a point moves.
+    pub(crate) fn applied(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], DeformError> {
+        match *self {
+            Self::Twist { axis, degrees, from, to } => {
+                let stretch = Stretch::new("twist", from, to)?;
+                let turn = angle("twist", degrees)?;
+                moved(pen, p, &frame("twist", axis)?, &Twist { turn, stretch })
+            }
+            Self::Taper { axis, factor, from, to } => {
+                let stretch = Stretch::new("taper", from, to)?;
+                if !(factor > 0.0 && factor.is_finite()) {
+                    return Err(DeformError::Factor(factor));
+                }
+                moved(pen, p, &frame("taper", axis)?, &Taper { factor, stretch })
+            }
+            Self::Bend { axis, toward, degrees, from, to } => {
+                let stretch = Stretch::new("bend", from, to)?;
+                let turn = angle("bend", degrees.abs())?;
+                let frame = bend::frame(axis, if degrees < 0.0 { -toward } else { toward })?;
+                if degrees == 0.0 {
+                    return Ok(p);
+                }
+                // A surface may come round to itself, so nothing is asked of where it is.
+                moved(pen, p, &frame, &Bend::new(turn, stretch, Aabb::EMPTY)?)
+            }
+            Self::Inverse { .. } => Err(DeformError::Forward),
+            Self::Lattice(ref lattice) => Ok(lattice.applied(pen, p)?),
+        }
+    }
+}
+
+fn moved(
+    pen: &mut ExprBuilder,
+    p: [NodeId; 3],
+    frame: &Affine,
+    map: &impl Map,
+) -> Result<[NodeId; 3], DeformError> {
+    let own = pen.undone(p, frame)?;
+    let there = map.applied(pen, own)?;
+    Ok(pen.placed(there, frame)?)
+}
+
 /// A warp in its own frame, with the z axis for its axis.
 trait Map {
+    /// Writes down the place to which a point moves.
+    fn applied(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
+
     /// Bounds of the images of a box's points.
     fn image(&self, p: [Interval; 3]) -> [Interval; 3];
 

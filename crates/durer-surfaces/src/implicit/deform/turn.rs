@@ -41,6 +41,14 @@ pub(super) struct Twist {
 }
 
 impl Map for Twist {
+    fn applied(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+        let (t, turn) = (self.stretch.ratio_of(pen, z)?, pen.enclosed(self.turn)?);
+        let a = pen.mul(turn, t)?;
+        let (s, c) = (pen.of(Function::Sin, a)?, pen.of(Function::Cos, a)?);
+        let (xc, ys, yc, xs) = (pen.mul(x, c)?, pen.mul(y, s)?, pen.mul(y, c)?, pen.mul(x, s)?);
+        Ok([pen.sub(xc, ys)?, pen.add(xs, yc)?, z])
+    }
+
     fn image(&self, [x, y, z]: [Interval; 3]) -> [Interval; 3] {
         let a = self.turn * self.stretch.ratio(z);
         let (s, c) = (a.sin(), a.cos());
@@ -69,6 +77,14 @@ impl Taper {
 }
 
 impl Map for Taper {
+    fn applied(&self, pen: &mut ExprBuilder, [x, y, z]: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
+        let t = self.stretch.ratio_of(pen, z)?;
+        let (one, grows) = (pen.number(1.0)?, pen.enclosed(self.grows())?);
+        let grown = pen.mul(grows, t)?;
+        let s = pen.add(one, grown)?;
+        Ok([pen.mul(x, s)?, pen.mul(y, s)?, z])
+    }
+
     fn image(&self, [x, y, z]: [Interval; 3]) -> [Interval; 3] {
         let s = Interval::from(1.0) + self.grows() * self.stretch.ratio(z);
         [x * s, y * s, z]

@@ -1,6 +1,7 @@
 //! Tests of parametric surfaces. Spheres, tori and cylinders are held to the kernels of these
 //! solids, whose brackets rest on exact arithmetic; polynomials to Bezier patches.
 
+mod deformed;
 mod sweeps;
 
 use super::*;
