@@ -310,6 +310,8 @@ pub(super) struct Limit {
     pub(super) is_triangles: bool,
     /// -1 if normals point into the solid.
     pub(super) outward: i8,
+    /// Whether it bounds a solid.
+    pub(super) is_closed: bool,
 }
 
 /// A patch that was made for one ray, or a corner that was a candidate.
@@ -338,6 +340,32 @@ fn meet_cell(line: &Line, cell: &Cell, exact: &Exact<'_>, found: &mut Vec<Found>
         #[inline(always)]
         || View::new(line, cell, false).meet(exact, found, 0.0),
     );
+}
+
+/// Takes the direction from candidates that would break the turns of a closed surface, which a line
+/// enters and leaves alternately.
+///
+/// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
+/// it within the rounding. It has the direction in which these faces are crossed. If the line is crossed
+/// in that direction just before or behind, it passes the vertex.
+fn alternate(found: &mut [Found]) {
+    found.sort_by(|a, b| a.s.total_cmp(&b.s));
+    let mut last: Option<usize> = None;
+    for i in 0..found.len() {
+        if found[i].turn == 0 {
+            continue;
+        }
+        if let Some(k) = last.filter(|&k| found[k].turn == found[i].turn) {
+            if found[i].sign == 0 {
+                found[i].turn = 0;
+                continue;
+            }
+            if found[k].sign == 0 {
+                found[k].turn = 0;
+            }
+        }
+        last = Some(i);
+    }
 }
 
 /// A box that holds points.
@@ -426,6 +454,7 @@ impl Limit {
             tree,
             is_triangles,
             outward: 1,
+            is_closed: false,
         })
     }
 
@@ -442,6 +471,9 @@ impl Limit {
         self.meet(&at, &mut lists, sink.limit());
         if !lists.found.is_empty() {
             self.join(&mut lists);
+            if self.is_closed {
+                alternate(&mut lists.found);
+            }
             let mut roots = Sorted::new();
             for crossing in &lists.found {
                 let place = self.place(crossing, &lists.extra);

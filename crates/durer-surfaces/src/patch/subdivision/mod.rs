@@ -203,6 +203,7 @@ impl SubdivisionSurface {
         let is_closed = data.holes.is_empty() && is_closed(&data);
         let limit = Limit::new(&mesh, &points, &is_hole, frame, ahead);
         let mut limit = limit.ok_or(SubdivisionError::Nothing("its faces do not make a surface"))?;
+        limit.is_closed = is_closed;
         if is_closed && volume(&data, centre) < 0.0 {
             limit.outward = -1;
         }
