@@ -1,13 +1,14 @@
 //! Surfaces as scene data: one function for each kind. Numbers are checked by building the surface once.
 
 use crate::{formula, value_error};
-use durer::math::{Affine, Point3, Vec3};
+use durer::math::{Aabb, Affine, Point3, Vec3};
 use durer::scene::{
     Blob, BlobComponent, BlobShape, Boundary, Colour, Container, Curve, FillRule, Finish, HeightField, Ifs,
-    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, NamedQuadric, NurbsData,
-    Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism, QuadricKind,
-    Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData, Sweep,
-    SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, UvInterpolation, Warp,
+    IfsLeaf, Interior, Isosurface, Julia, JuliaAlgebra, JuliaPower, LatheSpline, Lattice, NamedQuadric,
+    NurbsData, Object as SceneObject, Operation, Parametric, Patch, PathSpline, PathSweep, Pigment, Prism,
+    QuadricKind, Reflection, Rgb, Scene, Scheme, SewnData, Shape, Spline, StraightSweep, SubdivisionData,
+    Sweep, SweepData, SweepSpline, Terrain, TerrainData, Texture, TriangularPatch, TrimLoop, UvInterpolation,
+    Warp,
 };
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -508,6 +509,23 @@ fn deformed(object: &Object, warps: Vec<(String, V3, f64, [f64; 2], V3)>) -> PyR
 }
 
 #[pyfunction]
+fn latticed(
+    object: &Object,
+    low: V3,
+    high: V3,
+    size: [usize; 3],
+    moves: Vec<([usize; 3], V3)>,
+) -> PyResult<Object> {
+    let mut lattice =
+        Lattice::new(Aabb::from_points([point(low), point(high)]), size).map_err(value_error)?;
+    for (place, by) in moves {
+        lattice.shift(place, vec3(by)).map_err(value_error)?;
+    }
+    let warps = [Warp::Lattice(Arc::new(lattice))];
+    checked_object(SceneObject::deformed(object.0.clone(), &warps).map_err(value_error)?)
+}
+
+#[pyfunction]
 fn placed(object: &Object, rows: [[f64; 4]; 3]) -> PyResult<Object> {
     let mut object = object.0.clone();
     object.transform(&affine(rows)?).map_err(value_error)?;
@@ -620,6 +638,7 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(union, module)?)?;
     module.add_function(wrap_pyfunction!(csg, module)?)?;
     module.add_function(wrap_pyfunction!(deformed, module)?)?;
+    module.add_function(wrap_pyfunction!(latticed, module)?)?;
     module.add_function(wrap_pyfunction!(placed, module)?)?;
     module.add_function(wrap_pyfunction!(complement, module)?)?;
     module.add_function(wrap_pyfunction!(without_caps, module)?)?;

@@ -51,7 +51,7 @@ struct Asked {
 #[derive(Debug)]
 struct Ready {
     geometry: scene::Lowered,
-    /// The triangles among the primitives; empty if there are none.
+    /// The kinds of the primitives' normals; empty if all are those of the kernel.
     triangles: Vec<Triangle>,
 }
 
@@ -414,6 +414,7 @@ fn collect_triangles(object: &scene::Object, kinds: &mut Vec<Triangle>) {
         scene::Shape::Triangle(_) => kinds.push(Triangle::Opposite),
         // The kernel's triangle looks where its normals look.
         scene::Shape::SmoothTriangle(_) => kinds.push(Triangle::Smooth),
+        scene::Shape::HeightField(field) if field.is_smooth() => kinds.push(Triangle::Smooth),
         scene::Shape::Mesh(mesh) => kinds.extend(mesh.faces.iter().map(|face| {
             let numbers = |all: [u32; 3]| all.map(|i| i as usize);
             match face.normals {

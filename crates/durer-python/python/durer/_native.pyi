@@ -41,6 +41,7 @@ __all__ = [
     "isosurface",
     "julia",
     "lathe",
+    "latticed",
     "lemon",
     "menger",
     "load",
@@ -289,6 +290,13 @@ def union(objects: Sequence[Object]) -> Object: ...
 def csg(operation: str, objects: Sequence[Object]) -> Object: ...
 def deformed(
     object: Object, warps: Sequence[tuple[str, _Numbers, float, tuple[float, float], _Numbers]]
+) -> Object: ...
+def latticed(
+    object: Object,
+    low: _Numbers,
+    high: _Numbers,
+    size: tuple[int, int, int],
+    moves: Sequence[tuple[tuple[int, int, int], _Numbers]],
 ) -> Object: ...
 def placed(object: Object, rows: Sequence[_Numbers]) -> Object: ...
 def complement(object: Object) -> Object: ...

@@ -6,7 +6,7 @@ Lengths are in the units of the scene, angles in radians, points and vectors are
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
@@ -124,6 +124,19 @@ class Object:
         """The solid, bent by an angle (radians) between two heights along an axis, to the side of `toward`."""
         side = vector(toward, "toward")
         return Deformed(self, [("bend", vector(axis, "axis"), math.degrees(angle), (start, end), side)])
+
+    def in_lattice(
+        self,
+        low: npt.ArrayLike,
+        high: npt.ArrayLike,
+        size: tuple[int, int, int],
+        moves: Mapping[tuple[int, int, int], npt.ArrayLike],
+    ) -> Latticed:
+        """A patch, NURBS or sewn surface whose points in a box move with a lattice of `size` control points.
+
+        `moves` says by how much control points move, each named by its place along the three axes, from 0 on.
+        """
+        return Latticed(self, low, high, size, moves)
 
     # -- look
 
@@ -356,6 +369,35 @@ class Deformed(Object):
     def __init__(self, object: Object, warps: Sequence[tuple[str, Vector, float, tuple[float, float], Vector]]) -> None:
         native = _native.deformed(object._native, list(warps))
         self._set(native, (object, tuple(warps)))
+
+
+@final
+class Latticed(Object):
+    """A surface in a lattice of control points; made by `Object.in_lattice`.
+
+    Examples
+    --------
+    >>> import durer
+    >>> sheet = durer.BezierPatch([[(-1, -1, 0), (1, -1, 0)], [(-1, 1, 0), (1, 1, 0)]])
+    >>> bump = sheet.in_lattice((-1, -1, -1), (1, 1, 1), (3, 3, 2), {(1, 1, 0): (0, 0, 1), (1, 1, 1): (0, 0, 1)})
+    >>> float(durer.Scene([bump]).closest([[0, 0, 3]], [[0, 0, -1]]).t[0])
+    2.75
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        object: Object,
+        low: npt.ArrayLike,
+        high: npt.ArrayLike,
+        size: tuple[int, int, int],
+        moves: Mapping[tuple[int, int, int], npt.ArrayLike],
+    ) -> None:
+        listed = [(place, vector(by, "moves")) for place, by in moves.items()]
+        corners = (vector(low, "low"), vector(high, "high"))
+        native = _native.latticed(object._native, *corners, size, listed)
+        self._set(native, (object, *corners, tuple(size), dict(listed)))
 
 
 @final

@@ -273,10 +273,11 @@ fn sheet<H: Heights + 'static>(
     map: Option<&Affine>,
     target: &mut Target<'_>,
 ) -> Result<()> {
+    let sheet = sheet.clone().shown_in(map);
     let solid = sheet.clone().solid();
     target.contain(&solid, map);
     if matches!(target.to, To::Scene(..)) {
-        target.add_rare(sheet.clone(), map);
+        target.add_rare(sheet, map);
         return Ok(());
     }
     target.add_rare(solid, map);

@@ -141,6 +141,8 @@ impl Midpoints {
 impl Heights for Midpoints {
     const NAME: &'static str = "terrain";
 
+    const ROUNDS_NORMALS: bool = false;
+
     type Data = [f64; 4];
 
     #[inline(always)]

@@ -29,6 +29,9 @@ pub trait Heights: Clone + Debug + Send + Sync {
     /// The name of the surface.
     const NAME: &'static str;
 
+    /// Whether normals for shading are rounded as POV-Ray rounds them.
+    const ROUNDS_NORMALS: bool;
+
     /// Bounds of a block.
     type Data: Copy;
 

@@ -48,7 +48,7 @@ use crate::{
     SurfacePoint,
 };
 use core::cmp::Ordering;
-use durer_math::{Aabb, Dyadic, Normal3, Point3, Ring, Vec3};
+use durer_math::{Aabb, Affine, Dyadic, Point3, Ring, Vec3};
 use durer_roots::quadratic::Quadratic;
 
 /// A sheet of triangles over the unit square. A root's face is `2 (j columns + i)` for the triangle
@@ -64,6 +64,8 @@ pub struct Sheet<H> {
     range: [f64; 2],
     water_level: f64,
     is_smooth: bool,
+    /// Where normals are interpolated, if it is not the sheet's own space.
+    shown_in: Option<Affine>,
     is_solid: bool,
 }
 
@@ -80,7 +82,7 @@ impl<H: Heights> Sheet<H> {
     fn of(heights: H) -> Self {
         let range = heights.range(heights.whole().0, heights.whole().1);
         let water_level = f64::NEG_INFINITY;
-        Self { heights, range, water_level, is_smooth: false, is_solid: false }
+        Self { heights, range, water_level, is_smooth: false, shown_in: None, is_solid: false }
     }
 
     /// Leaves out all parts of the sheet that lie below `level`. A solid does not change.
@@ -90,10 +92,18 @@ impl<H: Heights> Sheet<H> {
         self
     }
 
-    /// Interpolates normals over the triangles, for shading: hits stay where they are.
+    /// Interpolates normals over the cells, for shading: hits stay where they are.
     #[must_use]
     pub fn smooth(mut self) -> Self {
         self.is_smooth = true;
+        self
+    }
+
+    /// Interpolates normals in the space to which the sheet is mapped: there the normals of grid
+    /// points count the same (a fact of the scene language).
+    #[must_use]
+    pub fn shown_in(mut self, map: Option<&Affine>) -> Self {
+        self.shown_in = map.copied();
         self
     }
 
@@ -244,25 +254,49 @@ impl<H: Heights> Sheet<H> {
         }
     }
 
-    /// Normals for shading at the corners of a face.
-    fn corner_normals(&self, face: u32) -> [Normal3; 3] {
-        let [columns, _] = self.heights.cells();
+    /// The shading normal of a point of a face, and its derivatives: the normals of the cell's four
+    /// corners are interpolated bilinearly, also across the diagonal (a fact of the scene
+    /// language).
+    fn shade(&self, face: u32, point: &mut SurfacePoint) {
+        let [columns, rows] = self.heights.cells();
         let (i, j) = ((face >> 1) % columns, (face >> 1) / columns);
-        let normal = |a: u32, b: u32| self.vertex_normal(i + a, j + b);
-        if face & 1 == 0 {
-            [normal(0, 0), normal(0, 1), normal(1, 0)]
-        } else {
-            [normal(1, 1), normal(1, 0), normal(0, 1)]
-        }
+        let (columns, rows) = (f64::from(columns), f64::from(rows));
+        let u = (point.p.x * columns - f64::from(i)).clamp(0.0, 1.0);
+        let v = (point.p.z * rows - f64::from(j)).clamp(0.0, 1.0);
+        let normal = |a: u32, b: u32| {
+            let n = self.vertex_normal(i + a, j + b).to_normal();
+            let outer = self.shown_in.map_or(n, |map| map.normal(n));
+            let unit = outer.normalized().unwrap_or(outer);
+            self.shown_in.map_or(unit, |map| map.inverse_normal(unit)).to_vec()
+        };
+        let [n00, n10, n01, n11] = [normal(0, 0), normal(1, 0), normal(0, 1), normal(1, 1)];
+        let (south, north) = (n10 - n00, n11 - n01);
+        let sum = (n00 + south * u) * (1.0 - v) + (n01 + north * u) * v;
+        let Some(unit) = sum.to_normal().normalized() else { return };
+        let side = if unit.dot(point.ng.to_vec()) < 0.0 { -1.0 } else { 1.0 };
+        point.ns = unit * side;
+        // The change of the unit normal is the change of the sum across it, over the sum's length.
+        let length = sum.length();
+        let across = |x: Vec3| {
+            let x = x * (side / length);
+            x.to_normal() - point.ns * point.ns.dot(x)
+        };
+        let dndu = across((south * (1.0 - v) + north * v) * columns);
+        let dndv = across(((n01 - n00) * (1.0 - u) + (n11 - n10) * u) * rows);
+        (point.dndu, point.dndv) = (dndu.to_vec(), dndv.to_vec());
     }
 
-    /// The normal for shading at a grid point.
+    /// The normal for shading at a grid point, of about unit length where cells and heights are
+    /// counted as follows.
     ///
-    /// A fact of the scene language: it is the mean of the unit normals of the four triangles that
+    /// Facts of the scene language: it is the mean of the unit normals of the four triangles that
     /// the point makes with its neighbours along x and z, where cells are one unit wide and heights
-    /// are counted in units of `2^-16`.
-    fn vertex_normal(&self, i: u32, j: u32) -> Normal3 {
+    /// are counted in units of `2^-16`. The components of the normal of a height field are rounded
+    /// towards zero to multiples of `1/32767`. On steep slopes the component upward is only a few
+    /// of these steps.
+    fn vertex_normal(&self, i: u32, j: u32) -> Vec3 {
         const UNITS: f64 = 65536.0;
+        const STEPS: f64 = 32767.0;
         let [columns, rows] = self.heights.cells();
         let here = self.heights.height(i, j);
         let rise = |i: u32, j: u32| (self.heights.height(i, j) - here) * UNITS;
@@ -277,8 +311,12 @@ impl<H: Heights> Sheet<H> {
                 sum += n / n.length();
             }
         }
-        let n = Vec3::new(sum.x * f64::from(columns), sum.y * UNITS, sum.z * f64::from(rows));
-        n.to_normal().normalized().unwrap_or(Vec3::Y.to_normal())
+        // Each of the vectors has a positive y, so the sum is not zero.
+        let mut n = sum / sum.length();
+        if H::ROUNDS_NORMALS {
+            n = Vec3::new((n.x * STEPS).trunc(), (n.y * STEPS).trunc(), (n.z * STEPS).trunc()) / STEPS;
+        }
+        Vec3::new(n.x * f64::from(columns), n.y * UNITS, n.z * f64::from(rows))
     }
 }
 
@@ -365,9 +403,13 @@ impl<H: Heights> Surface for Sheet<H> {
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         let Some(facet) = self.facet(root.face) else { return self.resolve_wall(ray, root) };
         let varies = need.contains(Need::SHADING_NORMAL) || need.contains(Need::DERIVATIVES);
-        let normals = (self.is_smooth && varies).then(|| self.corner_normals(root.face));
         let uv = facet.map(|p| [p.x, p.z]);
-        facet::resolve_far(&Self::probe(ray, &facet), &facet, &Varying { normals, uv: Some(uv) }, need)
+        let varying = Varying { normals: None, uv: Some(uv) };
+        let mut point = facet::resolve_far(&Self::probe(ray, &facet), &facet, &varying, need);
+        if self.is_smooth && varies {
+            self.shade(root.face, &mut point);
+        }
+        point
     }
 
     fn solidity(&self) -> Solidity {

@@ -248,6 +248,8 @@ fn outward(x: f64) -> [f32; 2] {
 impl Heights for Samples {
     const NAME: &'static str = "height field";
 
+    const ROUNDS_NORMALS: bool = true;
+
     type Data = ();
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use crate::laws::{
     exact3, roots_are_the_exact_crossings,
 };
 use crate::{Placed, Triangle};
-use durer_math::{Affine, Ray};
+use durer_math::{Affine, Ray, elementary};
 
 /// All triangles of a sheet, by exact arithmetic. With `walls` it is the solid, whose crossings are
 /// those with the planes over the borders as well.
@@ -462,7 +462,7 @@ fn terrain_follows_its_recipe_to_the_bit() {
         (data.corners[0], data.corners[1], data.corners[2], data.corners[3]);
     for l in 1..=data.levels {
         let s = 1 << (data.levels - l);
-        let fall = durer_math::elementary::exp2(-data.roughness * f64::from(l - 1));
+        let fall = elementary::exp2(-data.roughness * f64::from(l - 1));
         let e = |i: usize, j: usize| {
             let mut z = data.seed.wrapping_mul(0x9E3779B97F4A7C15);
             z = z.wrapping_add((i as u64).wrapping_mul(0xBF58476D1CE4E5B9));
@@ -505,4 +505,29 @@ fn bad_numbers_are_named() {
     assert_eq!(wrong(TerrainData { levels: 16, ..good }), TerrainError::Levels(16));
     assert_eq!(wrong(TerrainData { roughness: 0.0, ..good }), TerrainError::Roughness(0.0));
     assert_eq!(wrong(TerrainData { amplitude: -1.0, ..good }), TerrainError::Amplitude(-1.0));
+}
+
+/// Values of `trace` in POV-Ray: as it is, and scaled by 4, 65536 and 4.
+#[test]
+fn normals_for_shading_are_those_of_the_scene_language() {
+    let heights: Vec<f64> = (0..25_u32)
+        .map(|k| {
+            let (x, y) = (f64::from(k % 5) * 0.25, f64::from(k / 5) * 0.25);
+            let height = 0.5 + 0.3 * elementary::sin(7.0 * x) * elementary::cos(5.0 * y);
+            (height * 65536.0).floor() / 65536.0
+        })
+        .collect();
+    let field = HeightField::new([5, 5], heights).unwrap().smooth();
+    let scaled = Affine::scaling(4.0, 65536.0, 4.0).unwrap();
+    let at = |field: &HeightField, x: f64, z: f64| {
+        let ray = Ray::new(Point3::new(x, 2.0, z), Vec3::new(0.0, -1.0, 0.0));
+        let roots = all_roots(field, &ray);
+        field.resolve(&LocalRay::new(&ray), &roots[0], Need::SHADING_NORMAL).ns.to_vec()
+    };
+    let close = |n: Vec3, to: [f64; 3]| {
+        let way = n - Vec3::new(to[0], to[1], to[2]);
+        assert!(way.max_abs() < 2e-6, "{n:?} instead of {to:?}");
+    };
+    close(at(&field, 0.3, 0.6), [-0.071_968_8, 0.810_837_0, -0.580_830_2]);
+    close(at(&field.clone().shown_in(Some(&scaled)), 0.3, 0.6), [-0.059_298_3, 0.853_280_3, -0.518_069_8]);
 }

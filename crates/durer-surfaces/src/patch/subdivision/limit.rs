@@ -342,29 +342,60 @@ fn meet_cell(line: &Line, cell: &Cell, exact: &Exact<'_>, found: &mut Vec<Found>
     );
 }
 
-/// Takes the direction from candidates that would break the turns of a closed surface, which a line
-/// enters and leaves alternately.
+/// A line is outside of a solid or inside.
+#[derive(Clone, Copy)]
+struct Step {
+    /// The sign of the crossing.
+    sign: i8,
+    /// Whether the line was inside before.
+    from_inside: bool,
+}
+
+/// Decides what candidates without proof are, along a whole line: a closed surface is entered and left
+/// alternately, and both ends of the line are outside.
 ///
 /// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
-/// it within the rounding. It has the direction in which these faces are crossed. If the line is crossed
-/// in that direction just before or behind, it passes the vertex.
-fn alternate(found: &mut [Found]) {
+/// it within the rounding; its direction is that in which these faces are crossed. Of all choices that
+/// alternate this takes one with the fewest changes: a candidate loses its direction (the line passes),
+/// or, at a higher price, has another one. Crossings with proof stay as they are.
+fn alternate(found: &mut [Found], outward: i8) {
+    /// More than all candidates cost together; the price of a surface that crosses itself.
+    const CONTRADICTION: u64 = 1 << 32;
     found.sort_by(|a, b| a.s.total_cmp(&b.s));
-    let mut last: Option<usize> = None;
-    for i in 0..found.len() {
-        if found[i].turn == 0 {
-            continue;
-        }
-        if let Some(k) = last.filter(|&k| found[k].turn == found[i].turn) {
-            if found[i].sign == 0 {
-                found[i].turn = 0;
-                continue;
+    // The least cost to be outside, and inside, and the last step on the way there.
+    let mut costs = [0, CONTRADICTION << 20];
+    let mut steps: Vec<[Step; 2]> = Vec::with_capacity(found.len());
+    for crossing in &*found {
+        let turn = crossing.turn * outward;
+        let mut next = [u64::MAX; 2];
+        let mut step = [Step { sign: 0, from_inside: false }; 2];
+        for (from_inside, cost) in [(false, costs[0]), (true, costs[1])] {
+            let mut reach = |sign: i8, price: u64| {
+                let inside = if sign == 0 { from_inside } else { sign < 0 };
+                if cost + price < next[usize::from(inside)] {
+                    next[usize::from(inside)] = cost + price;
+                    step[usize::from(inside)] = Step { sign, from_inside };
+                }
+            };
+            let across = if from_inside { 1 } else { -1 };
+            if crossing.sign != 0 {
+                reach(turn, if turn == across { 0 } else { CONTRADICTION });
+            } else {
+                reach(0, u64::from(turn != 0));
+                reach(across, if turn == across { 0 } else { 2 });
             }
-            if found[k].sign == 0 {
-                found[k].turn = 0;
-            }
         }
-        last = Some(i);
+        // A crossing with proof ends on one side only.
+        costs = next.map(|cost| cost.min(CONTRADICTION << 20));
+        steps.push(step);
+    }
+    let mut inside = false;
+    for (crossing, step) in found.iter_mut().zip(&steps).rev() {
+        let Step { sign, from_inside } = step[usize::from(inside)];
+        if crossing.sign == 0 {
+            crossing.turn = sign * outward;
+        }
+        inside = from_inside;
     }
 }
 
@@ -468,11 +499,14 @@ impl Limit {
     pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
-        self.meet(&at, &mut lists, sink.limit());
+        let (begin, end) = at.window((ray.t_min, ray.t_max.min(sink.limit())));
+        self.meet(&at, &mut lists, [begin - ROOM, end + ROOM]);
         if !lists.found.is_empty() {
             self.join(&mut lists);
-            if self.is_closed {
-                alternate(&mut lists.found);
+            if self.is_closed && lists.found.iter().any(|found| found.sign == 0) {
+                self.meet(&at, &mut lists, [f64::NEG_INFINITY, f64::INFINITY]);
+                self.join(&mut lists);
+                alternate(&mut lists.found, self.outward);
             }
             let mut roots = Sorted::new();
             for crossing in &lists.found {
@@ -496,11 +530,8 @@ impl Limit {
     }
 
     #[inline(always)]
-    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, limit: f64) {
+    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, window: [f64; 2]) {
         let along = Along::new(at);
-        let ray = at.local();
-        let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
-        let window = [begin - ROOM, end + ROOM];
         let line = Line::new(at);
         let exact = Exact::new(at, &self.nets, line.axes);
         lists.nodes.clear();

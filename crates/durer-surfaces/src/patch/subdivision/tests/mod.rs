@@ -161,6 +161,33 @@ fn rays_from_inside_leave_closed_meshes_once_in_turn() {
     report(rays);
 }
 
+/// A ray that passes a tip within its rounding meets some of the faces beside it for certain, and has
+/// candidates on others.
+#[test]
+fn rays_past_sharp_tips_leave_once() {
+    let mut unsure = 0;
+    for is_loop in [false, true] {
+        let data = creased(cube(), &[], &[(5, 10.0), (2, 10.0)]);
+        let data = if is_loop { triangulated(data) } else { data };
+        let it = surface(&data);
+        for case in drawn(1500) {
+            let mut dice = crate::laws::dice(17, case);
+            let inside = dice.vector() * 0.12;
+            // The limit of a sharp vertex is the vertex.
+            let tip = data.vertices[dice.pick(&[5, 2])].to_vec();
+            let ray = Ray::new(inside.to_point(), tip + dice.vector() * dice.scale(-60, -48) - inside);
+            let line = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
+            let signs = |ray: &Ray| -> Vec<i8> {
+                all_roots(&it, ray).iter().map(|root| root.sign).filter(|sign| *sign != 0).collect()
+            };
+            assert_eq!(signs(&ray), [1], "{is_loop} {case}: {ray:?}");
+            assert_eq!(signs(&line), [-1, 1], "{is_loop} {case}: {line:?}");
+            unsure += all_roots(&it, &ray).iter().filter(|root| root.kind != RootKind::Simple).count();
+        }
+    }
+    assert!(unsure > 100, "{unsure}");
+}
+
 /// How much of the distance to the limit a step leaves, at most.
 ///
 /// Of a closed mesh of quadrilaterals with four edges or three at each vertex it is a quarter, as of

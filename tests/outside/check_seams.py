@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""Closed sets of faces: no ray from inside may escape. Half of the rays are aimed exactly at corners and at points of shared edges.
+
+The bodies: the body of the Utah teapot with its lid and bottom, closed by a ruled ring under the lid; a rational sphere and a rational torus; a box of
+six bicubic NURBS faces whose edges are curved; the box and the teapot twisted; the box in a lattice. A ray that starts inside has to meet the body, and
+to cross it an odd number of times.
+
+    check_seams.py [--durer PATH] [--rays N] [--seed N] [--only WORD]
+"""
+
+import argparse
+import math
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+H = math.sqrt(0.5)
+ARCS = [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4]
+
+
+class Face:
+    """A NURBS surface of Bezier patches: rows of points and weights, `u` along a row."""
+
+    def __init__(self, degree, rows, knots=(None, None)):
+        self.degree, self.rows, self.knots = degree, np.array(rows, dtype=float), knots
+
+    def text(self):
+        (v, u), (du, dv) = self.rows.shape[:2], self.degree
+        number = lambda x: repr(float(x))
+        point = lambda p: "<" + ", ".join(map(number, p)) + ">"
+        points = ", ".join(point(p) for row in self.rows for p in row)
+        out = f"nurbs {{ degree {du}, {dv} points {u}, {v}, {points}"
+        for name, knots in zip("uv", self.knots):
+            if knots:
+                out += f" {name}_knots {len(knots)}, {', '.join(map(str, knots))}"
+        return out + " }"
+
+    def patches(self):
+        """The homogeneous control points of each Bezier patch."""
+        (v, u), (du, dv) = self.rows.shape[:2], self.degree
+        net = np.concatenate([self.rows[..., :3] * self.rows[..., 3:], self.rows[..., 3:]], axis=-1)
+        for j in range((v - 1) // dv):
+            for i in range((u - 1) // du):
+                yield net[j * dv : (j + 1) * dv + 1, i * du : (i + 1) * du + 1]
+
+
+def bernstein(n, t):
+    return np.stack([math.comb(n, i) * t**i * (1 - t) ** (n - i) for i in range(n + 1)])
+
+
+def points_of(net, u, v):
+    p = np.einsum("jn,in,jik->nk", bernstein(net.shape[0] - 1, v), bernstein(net.shape[1] - 1, u), net)
+    return p[:, :3] / p[:, 3:]
+
+
+def circle(r, y, w):
+    return [
+        (r, y, 0, w), (r, y, r, w * H), (0, y, r, w), (-r, y, r, w * H), (-r, y, 0, w), (-r, y, -r, w * H), (0, y, -r, w), (r, y, -r, w * H), (r, y, 0, w),
+    ]
+
+
+def turned(profile, knots):
+    return Face((2, 2), [circle(*p) for p in profile], (ARCS, knots))
+
+
+def sphere():
+    return [turned([(0, -1, 1), (1, -1, H), (1, 0, 1), (1, 1, H), (0, 1, 1)], [0, 0, 0, 1, 1, 2, 2, 2])]
+
+
+def torus():
+    r = 0.375
+    ring = [(1 + r, 0, 1), (1 + r, r, H), (1, r, 1), (1 - r, r, H), (1 - r, 0, 1), (1 - r, -r, H), (1, -r, 1), (1 + r, -r, H), (1 + r, 0, 1)]
+    return [turned(ring, ARCS)]
+
+
+def box():
+    """Six bicubic faces; the twelve edges are cubics that bulge."""
+    rng = np.random.default_rng(5)
+    moves = {}
+
+    def at(p):
+        key = tuple(p)
+        if key not in moves:
+            moves[key] = np.array(p) * 2 / 3 - 1 + rng.uniform(-0.2, 0.2, 3)
+        return (*moves[key], 1.0)
+
+    faces = []
+    for axis in range(3):
+        for end in (0, 3):
+            point = lambda i, j: at(tuple(np.roll((end, i, j), axis)))
+            faces.append(Face((3, 3), [[point(i, j) for i in range(4)] for j in range(4)]))
+    return faces
+
+
+def teapot():
+    """Body, lid and bottom from the scene's own control points, and a ring between the rim and the lid."""
+    text = (HERE.parents[1] / "scenes/teapot.pov").read_text()
+    quarter = text[text.index("#declare Quarter") : text.index("#declare Side")]
+    nets = []
+    for patch in re.findall(r"bicubic_patch \{(.*?)\}", quarter, re.S):
+        points = [tuple(map(float, p.split(","))) for p in re.findall(r"<([^>]*)>", patch)]
+        nets.append(np.array(points).reshape(4, 4, 3))
+    nets = joined(nets)
+    faces = []
+    for x, z in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        for net in nets:
+            rows = np.concatenate([net * (x, 1, z), np.ones(net.shape[:2] + (1,))], axis=-1)
+            faces.append(Face((3, net.shape[0] - 1), rows))
+    return faces
+
+
+def joined(nets):
+    """The patches of a quarter, with a ruled one between the two edges that have no partner off the planes of symmetry."""
+    edges = []
+    for net in nets:
+        for row in (net[0], net[-1]):
+            if not (row == row[0]).all():
+                edges.append(row)
+    same = lambda a, b: (a == b).all() or (a == b[::-1]).all()
+    free = [a for i, a in enumerate(edges) if not any(same(a, b) for k, b in enumerate(edges) if k != i)]
+    assert len(free) == 2, [f.tolist() for f in free]
+    a, b = free
+    if np.abs(a[0] - b[0]).max() > np.abs(a[0] - b[-1]).max():
+        b = b[::-1]
+    return [*nets, np.stack([a, b])]
+
+
+def twisted(points, degrees, start, end):
+    a = math.radians(degrees) * np.clip((points[:, 1] - start) / (end - start), 0, 1)
+    x, z = points[:, 0], points[:, 2]
+    return np.stack([x * np.cos(a) + z * np.sin(a), points[:, 1], z * np.cos(a) - x * np.sin(a)], axis=-1)
+
+
+def pushed(points):
+    t = (points + 2) / 4
+    weight = 4 * t[:, 0] * t[:, 1] * (1 - t[:, 0]) * t[:, 2]
+    return points + weight[:, None] * np.array([0.5, 0.75, -0.25])
+
+
+PUSH = "lattice { <-2, -2, -2>, <2, 2, 2>, 3, 2, 2 move <1, 1, 1>, <1, 1.5, -0.5> }"
+BODIES = {
+    "teapot": (teapot, "", lambda p: p, (0, 1, 0), 0.4),
+    "sphere": (sphere, "", lambda p: p, (0, 0, 0), 0.5),
+    "torus": (torus, "", lambda p: p, (1, 0, 0), 0.2),
+    "box": (box, "", lambda p: p, (0, 0, 0), 0.4),
+    "twisted box": (box, "twist { y, 60, from -1 to 1 }", lambda p: twisted(p, 60, -1, 1), (0, 0, 0), 0.3),
+    "twisted teapot": (teapot, "twist { y, 90, from 0 to 2 }", lambda p: twisted(p, 90, 0, 2), (0, 1, 0), 0.3),
+    "box in a lattice": (box, PUSH, pushed, (0, 0, 0), 0.3),
+}
+
+
+def rays(rng, faces, move, centre, size, count):
+    origins = np.array(centre) + rng.uniform(-size, size, (count, 3)) * (rng.random(count) < 0.75)[:, None]
+    patches = [net for face in faces for net in face.patches()]
+    targets = np.empty((count, 3))
+    which = rng.integers(len(patches), size=count)
+    ends = lambda n: rng.integers(2, size=n).astype(float)
+    for k, net in enumerate(patches):
+        here = np.flatnonzero(which == k)
+        u, v, kind = rng.random(len(here)), rng.random(len(here)), rng.integers(4, size=len(here))
+        # A quarter at corners, a quarter at edges.
+        u = np.where((kind == 0) | (kind == 1) & (rng.random(len(here)) < 0.5), ends(len(here)), u)
+        v = np.where((kind == 0) | (kind == 1) & (u != 0) & (u != 1), ends(len(here)), v)
+        targets[here] = points_of(net, u, v)
+    return np.concatenate([origins, move(targets) - origins], axis=-1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--durer", default=str(HERE.parents[1] / "target/release/durer"))
+    parser.add_argument("--rays", type=int, default=20_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="")
+    args = parser.parse_args()
+    violations = 0
+    for name, (make, warp, move, centre, size) in BODIES.items():
+        if args.only not in name:
+            continue
+        rng = np.random.default_rng(args.seed)
+        faces = make()
+        body = f"sewn {{ {' '.join(face.text() for face in faces)} closed }}"
+        if warp:
+            body = f"deform {{ {body} {warp} }}"
+        with tempfile.TemporaryDirectory() as folder:
+            scene, given, found = (Path(folder) / n for n in ("body.pov", "rays.npy", "hits.npz"))
+            scene.write_text(body + "\n")
+            all_rays = rays(rng, faces, move, centre, size, args.rays)
+            np.save(given, all_rays)
+            command = [args.durer, "trace", str(scene), "--rays", str(given), "--query", "all", "-o", str(found)]
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode:
+                print(f"{name}: {done.stderr.strip()}")
+                violations += 1
+                continue
+            with np.load(found) as hits:
+                offsets, kinds = hits["offsets"].astype(np.int64), hits["kind"]
+        counts = np.diff(offsets)
+        # A crossing that is not proven may be a touch, which does not count.
+        touches = np.add.reduceat(np.append(kinds == 1, 0), np.minimum(offsets[:-1], len(kinds))) * (counts > 0)
+        escaped = np.flatnonzero((counts - touches) % 2 == 0)
+        unproven = int((kinds != 0).sum())
+        print(f"{name}: {len(faces)} surfaces, {args.rays} rays, {len(kinds)} crossings, {unproven} not proven, {len(escaped)} rays escaped")
+        for k in escaped[:3]:
+            print("   ", " ".join(map(repr, map(float, all_rays[k]))))
+        violations += len(escaped)
+    print(f"{violations} violations")
+    sys.exit(violations > 0)
+
+
+if __name__ == "__main__":
+    main()
