@@ -13,6 +13,7 @@
 //! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
 
 use super::Scheme;
+use super::candidates::alternate;
 use super::plan::{Plan, Plans, Wheel, net, refine};
 use super::topology::{Adjacency, Topology};
 use crate::blob::{Along, Inner, Tree};
@@ -21,7 +22,7 @@ use crate::patch::cell::{Cell, cells};
 use crate::patch::exact::Exact;
 use crate::patch::line::{Found, Line, View};
 use crate::patch::net::{FaceNet, relative};
-use crate::patch::shell::{Face, ROOM, clamped, is_held, is_on_edge, joined, overlap, root};
+use crate::patch::shell::{Face, ROOM, clamped, root};
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
 use durer_math::eft::{exponent, scale2};
@@ -316,18 +317,18 @@ pub(super) struct Limit {
 
 /// A patch that was made for one ray, or a corner that was a candidate.
 #[derive(Clone, Copy, Debug)]
-struct Extra {
-    place: Place,
+pub(super) struct Extra {
+    pub(super) place: Place,
     /// How far along the line the same crossing may be found beside it; 0 for a patch.
-    room: f64,
+    pub(super) room: f64,
 }
 
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
-struct Lists {
+pub(super) struct Lists {
     nodes: Vec<u32>,
-    found: Vec<Found>,
-    extra: Vec<Extra>,
+    pub(super) found: Vec<Found>,
+    pub(super) extra: Vec<Extra>,
 }
 
 thread_local! {
@@ -340,63 +341,6 @@ fn meet_cell(line: &Line, cell: &Cell, exact: &Exact<'_>, found: &mut Vec<Found>
         #[inline(always)]
         || View::new(line, cell, false).meet(exact, found, 0.0),
     );
-}
-
-/// A line is outside of a solid or inside.
-#[derive(Clone, Copy)]
-struct Step {
-    /// The sign of the crossing.
-    sign: i8,
-    /// Whether the line was inside before.
-    from_inside: bool,
-}
-
-/// Decides what candidates without proof are, along a whole line: a closed surface is entered and left
-/// alternately, and both ends of the line are outside.
-///
-/// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
-/// it within the rounding; its direction is that in which these faces are crossed. Of all choices that
-/// alternate this takes one with the fewest changes: a candidate loses its direction (the line passes),
-/// or, at a higher price, has another one. Crossings with proof stay as they are.
-fn alternate(found: &mut [Found], outward: i8) {
-    /// More than all candidates cost together; the price of a surface that crosses itself.
-    const CONTRADICTION: u64 = 1 << 32;
-    found.sort_by(|a, b| a.s.total_cmp(&b.s));
-    // The least cost to be outside, and inside, and the last step on the way there.
-    let mut costs = [0, CONTRADICTION << 20];
-    let mut steps: Vec<[Step; 2]> = Vec::with_capacity(found.len());
-    for crossing in &*found {
-        let turn = crossing.turn * outward;
-        let mut next = [u64::MAX; 2];
-        let mut step = [Step { sign: 0, from_inside: false }; 2];
-        for (from_inside, cost) in [(false, costs[0]), (true, costs[1])] {
-            let mut reach = |sign: i8, price: u64| {
-                let inside = if sign == 0 { from_inside } else { sign < 0 };
-                if cost + price < next[usize::from(inside)] {
-                    next[usize::from(inside)] = cost + price;
-                    step[usize::from(inside)] = Step { sign, from_inside };
-                }
-            };
-            let across = if from_inside { 1 } else { -1 };
-            if crossing.sign != 0 {
-                reach(turn, if turn == across { 0 } else { CONTRADICTION });
-            } else {
-                reach(0, u64::from(turn != 0));
-                reach(across, if turn == across { 0 } else { 2 });
-            }
-        }
-        // A crossing with proof ends on one side only.
-        costs = next.map(|cost| cost.min(CONTRADICTION << 20));
-        steps.push(step);
-    }
-    let mut inside = false;
-    for (crossing, step) in found.iter_mut().zip(&steps).rev() {
-        let Step { sign, from_inside } = step[usize::from(inside)];
-        if crossing.sign == 0 {
-            crossing.turn = sign * outward;
-        }
-        inside = from_inside;
-    }
 }
 
 /// A box that holds points.
@@ -506,6 +450,7 @@ impl Limit {
             if self.is_closed && lists.found.iter().any(|found| found.sign == 0) {
                 self.meet(&at, &mut lists, [f64::NEG_INFINITY, f64::INFINITY]);
                 self.join(&mut lists);
+                self.join_unproven(&mut lists);
                 alternate(&mut lists.found, self.outward);
             }
             let mut roots = Sorted::new();
@@ -524,7 +469,7 @@ impl Limit {
         LISTS.set(lists);
     }
 
-    fn place(&self, found: &Found, extra: &[Extra]) -> Place {
+    pub(super) fn place(&self, found: &Found, extra: &[Extra]) -> Place {
         let k = found.face as usize;
         self.leaves.get(k).map_or_else(|| extra[k - self.leaves.len()].place, |leaf| leaf.place)
     }
@@ -627,70 +572,6 @@ impl Limit {
         }
         for found in &mut lists.found[first..] {
             found.face = face;
-        }
-    }
-
-    /// How far along the line the same crossing may be found beside this one.
-    fn room(&self, found: &Found, extra: &[Extra]) -> f64 {
-        extra.get((found.face as usize).wrapping_sub(self.leaves.len())).map_or(0.0, |extra| extra.room)
-    }
-
-    /// Whether two may be the same crossing.
-    ///
-    /// Within a patch: boxes that touch, or one where the other's proof says that it is alone. In
-    /// different ones: on an edge, or in a corner beside it, at the same place of the line and in the
-    /// same direction; what has no direction goes with any.
-    fn is_same(&self, a: &Found, b: &Found, extra: &[Extra]) -> bool {
-        if a.face == b.face {
-            return is_held(a, b) || is_held(b, a) || overlap(a, b);
-        }
-        let rooms = [self.room(a, extra), self.room(b, extra)];
-        let on_edge = |f: &Found| is_on_edge(self.is_triangles, f);
-        // One of them may be in the other's patch as well; that other one may surely be in its own.
-        let may_be = rooms.iter().any(|r| *r > 0.0) || on_edge(a) || on_edge(b);
-        let is_alike = a.turn == b.turn || a.turn == 0 || b.turn == 0;
-        may_be && is_alike && (a.s - b.s).abs() <= a.s_err + b.s_err + rooms[0] + rooms[1]
-    }
-
-    /// Joins what is the same crossing.
-    fn join(&self, lists: &mut Lists) {
-        let Lists { found, extra, .. } = lists;
-        if found.len() < 2 {
-            return;
-        }
-        // Proven ones first; an order that does not depend on when patches were made.
-        let by_place = |f: &Found| {
-            let place = self.place(f, extra);
-            (place.face, place.from.map(f64::to_bits), f.uv.map(f64::to_bits))
-        };
-        found.sort_by(|a, b| {
-            let first = (a.sign == 0).cmp(&(b.sign == 0)).then((a.turn == 0).cmp(&(b.turn == 0)));
-            first.then(a.s.total_cmp(&b.s)).then_with(|| by_place(a).cmp(&by_place(b)))
-        });
-        let mut i = 0;
-        while i < found.len() {
-            let Some(j) = (i + 1..found.len()).find(|&j| self.is_same(&found[i], &found[j], extra)) else {
-                i += 1;
-                continue;
-            };
-            let (a, b) = (found[i], found[j]);
-            let is_same_patch = a.face == b.face;
-            let is_known = !is_same_patch || is_held(&a, &b) || is_held(&b, &a);
-            if a.sign == 0 || !is_known {
-                // Nothing says whether that is one crossing or two.
-                let turn = if a.turn == 0 { b.turn } else { a.turn };
-                found[i] = Found { turn, ..joined(&a, &b) };
-                if is_same_patch && a.turn != b.turn {
-                    found[i].turn = 0;
-                }
-            } else if b.sign != 0 && b.s_err < a.s_err {
-                // Of two proofs the sharper one is kept.
-                found[i] = b;
-            }
-            // Not by swapping: the order stays.
-            found.remove(j);
-            // What was apart from it may touch it now.
-            i = 0;
         }
     }
 

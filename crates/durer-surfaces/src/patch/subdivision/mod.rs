@@ -25,6 +25,7 @@
 //! M. Niessner, C. Loop, M. Meyer, T. DeRose, "Feature-adaptive GPU rendering of Catmull-Clark
 //! subdivision surfaces", *ACM Transactions on Graphics* 31:1 (2012).
 
+mod candidates;
 mod data;
 mod limit;
 mod plan;

@@ -203,7 +203,7 @@ fn texture_coordinates_are_linear_in_triangles() {
         let local = LocalRay::new(&ray);
         let root = all_roots(&it, &ray)[0];
         let point = it.resolve(&local, &root, Need::ALL);
-        let [u, v] = root.tag;
+        let [u, v] = limit::parameters(true, root.tag);
         assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 4.0 * U, "{root:?}");
         assert!((point.uv[0] - (2.0 * u + 0.5 * v)).abs() < 1e-14, "{point:?}");
         assert!((point.uv[1] - 3.0 * v).abs() < 1e-14, "{point:?}");
