@@ -394,10 +394,10 @@ fn what_cannot_be_deformed_is_refused_with_its_place() {
         (column, said)
     };
     refused("deform { twist { y, 90, from 0 to 1 } }", "the object that is deformed");
-    refused("deform { sphere { 0, 1 } }", "`twist`, `taper`, `bend` or `formula`");
+    refused("deform { sphere { 0, 1 } }", "`twist`, `taper`, `bend`, `lattice` or `formula`");
     refused(
         "deform { sphere { 0, 1 } shear { y, 9, from 0 to 1 } }",
-        "`twist`, `taper`, `bend` or `formula`",
+        "`twist`, `taper`, `bend`, `lattice` or `formula`",
     );
     refused("deform { sphere { 0, 1 } twist { 90, from 0 to 1 } }", "expected a direction");
     refused("deform { sphere { 0, 1 } twist { from 0 to 1 } }", "expected a direction");
