@@ -103,6 +103,19 @@ def traced(durer, text, rays):
             return {k: hits[k] for k in ("offsets", "t_lo", "t_hi", "kind")}
 
 
+def once(hits):
+    """Patches of their own share their edges, and a ray through an edge meets both: of hits with overlapping brackets the first stays."""
+    offsets, kept = [0], []
+    for first, last in zip(hits["offsets"][:-1], hits["offsets"][1:]):
+        before = -np.inf
+        for k in range(int(first), int(last)):
+            if hits["t_lo"][k] > before:
+                kept.append(k)
+            before = max(before, hits["t_hi"][k])
+        offsets.append(len(kept))
+    return {"offsets": np.array(offsets), **{k: hits[k][kept] for k in ("t_lo", "t_hi", "kind")}}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--durer", default=str(HERE.parents[1] / "target/release/durer"))
@@ -119,6 +132,7 @@ def main():
         d = rng.normal(size=(args.rays, 3))
         rays = np.concatenate([at - d * rng.uniform(1, 8, (args.rays, 1)), d], axis=-1)
         answers = {form: traced(args.durer, text, rays) for form, text in forms.items()}
+        answers = {form: once(hits) if form == "patches" else hits for form, hits in answers.items()}
         first = next(iter(forms))
         one = answers[first]
         for form, other in list(answers.items())[1:]:
