@@ -239,3 +239,14 @@ def test_mesh_normals_and_coordinates_are_interpolated():
     assert np.allclose(hits.uv[0], [0.25, 0.0625]) and hits.normal[0].tolist() == [0, 0, 1]
     assert np.allclose(np.cross(n, [0.5, 0.25, 1]), 0, atol=1e-9) or np.allclose(np.cross(n, expected), 0, atol=1e-9)
     assert hits.parameters[0].tolist() == [0.5, 0.25]
+
+
+def test_a_patch_moves_with_a_lattice() -> None:
+    flat = np.array([[[x, 0, z] for x in (0, 1)] for z in (0, 1)], float)
+    moves = {(1, 1, 1): [0, 0.5, 0], (1, 0, 1): [0, 0.5, 0]}
+    lifted = durer.BezierPatch(flat).in_lattice([0, -1, 0], [1, 1, 1], (2, 2, 2), moves)
+    hits = durer.Scene([lifted]).closest(np.array([[0.75, 5, 0.75]]), np.array([[0.0, -1, 0]]))
+    # The points of the far edge in x and z rise: y = x z / 2.
+    assert np.allclose(hits.position, [[0.75, 0.28125, 0.75]], rtol=0, atol=1e-15)
+    with pytest.raises(ValueError, match="2 to 8 points along each axis"):
+        durer.BezierPatch(flat).in_lattice([0, -1, 0], [1, 1, 1], (1, 2, 2), {})
