@@ -9,12 +9,11 @@ crossing has to be there in each, with the same sign, and brackets that have a p
 """
 
 import argparse
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
+from traced import all_crossings
 
 HERE = Path(__file__).resolve().parent
 ARCS = "12, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4"
@@ -90,19 +89,6 @@ def aims(rng, name, count):
     return np.stack([r * np.cos(u), y, r * np.sin(u)], axis=-1)
 
 
-def traced(durer, text, rays):
-    with tempfile.TemporaryDirectory() as folder:
-        scene, given, found = (Path(folder) / n for n in ("one.pov", "rays.npy", "hits.npz"))
-        scene.write_text(text + "\n")
-        np.save(given, rays)
-        command = [durer, "trace", str(scene), "--rays", str(given), "--query", "all", "-o", str(found)]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode:
-            raise SystemExit(f"{text[:80]}: {done.stderr.strip()}")
-        with np.load(found) as hits:
-            return {k: hits[k] for k in ("offsets", "t_lo", "t_hi", "kind")}
-
-
 def once(hits):
     """Patches of their own share their edges, and a ray through an edge meets both: of hits with overlapping brackets the first stays."""
     offsets, kept = [0], []
@@ -131,7 +117,7 @@ def main():
         at = aims(rng, name, args.rays)
         d = rng.normal(size=(args.rays, 3))
         rays = np.concatenate([at - d * rng.uniform(1, 8, (args.rays, 1)), d], axis=-1)
-        answers = {form: traced(args.durer, text, rays) for form, text in forms.items()}
+        answers = {form: all_crossings(args.durer, text + "\n", rays) for form, text in forms.items()}
         answers = {form: once(hits) if form == "patches" else hits for form, hits in answers.items()}
         first = next(iter(forms))
         one = answers[first]

@@ -11,12 +11,11 @@ to cross it an odd number of times.
 import argparse
 import math
 import re
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
+from traced import Refused, all_crossings
 
 HERE = Path(__file__).resolve().parent
 H = math.sqrt(0.5)
@@ -186,19 +185,14 @@ def main():
         body = f"sewn {{ {' '.join(face.text() for face in faces)} closed }}"
         if warp:
             body = f"deform {{ {body} {warp} }}"
-        with tempfile.TemporaryDirectory() as folder:
-            scene, given, found = (Path(folder) / n for n in ("body.pov", "rays.npy", "hits.npz"))
-            scene.write_text(body + "\n")
-            all_rays = rays(rng, faces, move, centre, size, args.rays)
-            np.save(given, all_rays)
-            command = [args.durer, "trace", str(scene), "--rays", str(given), "--query", "all", "-o", str(found)]
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode:
-                print(f"{name}: {done.stderr.strip()}")
-                violations += 1
-                continue
-            with np.load(found) as hits:
-                offsets, kinds = hits["offsets"].astype(np.int64), hits["kind"]
+        all_rays = rays(rng, faces, move, centre, size, args.rays)
+        try:
+            hits = all_crossings(args.durer, body + "\n", all_rays)
+        except Refused as why:
+            print(f"{name}: {why}")
+            violations += 1
+            continue
+        offsets, kinds = hits["offsets"].astype(np.int64), hits["kind"]
         counts = np.diff(offsets)
         # A crossing that is not proven may be a touch, which does not count.
         touches = np.add.reduceat(np.append(kinds == 1, 0), np.minimum(offsets[:-1], len(kinds))) * (counts > 0)

@@ -6,7 +6,7 @@ mod support;
 use durer_pov::MessageKind;
 use support::Folder;
 
-/// What a scene prints.
+/// The `#debug` messages of a scene.
 fn printed(folder: &Folder, text: &str) -> Vec<String> {
     folder.write("scene.pov", text);
     let read = folder.read("scene.pov").unwrap_or_else(|why| panic!("{why}\n{text}"));

@@ -105,7 +105,7 @@ fn render_here(
                 return;
             }
             tracer.counts = RayCounts::default();
-            // What the thread counted before belongs to another picture.
+            // Clears the thread's counts of an earlier picture.
             Steps::take();
             let pixels = sample_tile(anti_aliasing, tile, (width, height), |places, colours| {
                 tracer.look(camera, (width, height), places, colours)

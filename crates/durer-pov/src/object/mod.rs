@@ -421,9 +421,9 @@ impl Parser<'_> {
         Ok(Object::new(Shape::Csg(operation, solids), place))
     }
 
-    /// What a part of a solid is taken for. A disc without a hole holds all that is behind it, as
-    /// in POV-Ray, so it becomes a plane. A box without thickness adds nothing to a merge that
-    /// holds it.
+    /// Replaces a part that is no solid. A disc without a hole becomes its plane, because the inside of
+    /// a disc is all that lies behind it (a fact of the scene language). A merge leaves out a box
+    /// without thickness.
     fn as_solid(&mut self, part: Rc<Object>, operation: Operation) -> Result<Option<Rc<Object>>> {
         match &part.shape {
             &Shape::Disc { center, normal, hole: 0.0, .. } => {

@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::rc::Rc;
 
 use durer_scene::{Curve, Prism, Spline, Sweep};
@@ -149,24 +150,26 @@ impl Parser<'_> {
         if thickness == 0.0 {
             return Ok(self.nothing("this text has no thickness", thickness_at));
         }
-        let bytes = self.font(&name, at)?;
-        let face = Face::parse(&bytes, 0)
-            .map_err(|why| Error::file(Some(at), format!("{name}: not a font that can be read: {why}")))?;
+        let (path, bytes) = self.font(&name, at)?;
+        let face = Face::parse(&bytes, 0).map_err(|why| {
+            let path = path.display();
+            Error::file(Some(at), format!("{path}: not a font that can be read: {why}"))
+        })?;
         self.letters(&face, &text, thickness, offset, place)
     }
 
-    /// The contents of a font's file. The ending may be left out.
-    fn font(&mut self, name: &str, at: Place) -> Result<Cow<'static, [u8]>> {
+    /// The path of a font's file and its contents. The ending may be left out.
+    fn font(&mut self, name: &str, at: Place) -> Result<(PathBuf, Cow<'static, [u8]>)> {
         if let Some(path) = self.library.find(name).or_else(|| self.library.find(&format!("{name}.ttf"))) {
-            let bytes = read_bytes(&path, &self.options.limits, "a font");
-            return bytes
-                .map(Cow::Owned)
-                .map_err(|why| Error::file(Some(at), format!("{}: {why}", path.display())));
+            return match read_bytes(&path, &self.options.limits, "a font") {
+                Ok(bytes) => Ok((path, Cow::Owned(bytes))),
+                Err(why) => Err(Error::file(Some(at), format!("{}: {why}", path.display()))),
+            };
         }
         if let Some(font) = shipped::font(name) {
             let text = "this font comes with POV-Ray, which is not installed: Liberation Serif is used";
             self.notice(at, text);
-            return Ok(Cow::Borrowed(font));
+            return Ok((PathBuf::from(name), Cow::Borrowed(font)));
         }
         let folders = self.library.listed();
         Err(Error::file(Some(at), format!("there is no font \"{name}\"; searched: {folders}")))

@@ -26,7 +26,7 @@ fn read(text: &[&[u8]], others: &[(&str, &[u8])]) -> Option<Result<Read, PovErro
         std::fs::write(folder.join(name), bytes).ok()?;
     }
     let read = durer_pov::read(&path, &ReadOptions { limits: LIMITS, ..ReadOptions::default() });
-    // What is left over in the temporary folder is no fault of the scene.
+    // A folder that cannot be removed says nothing about the scene.
     let _ = std::fs::remove_dir_all(&folder);
     Some(read)
 }

@@ -9,7 +9,7 @@ use super::LowerErrorKind;
 use super::shapes::{Result, container, shape_error};
 use crate::{Deform, Object, Shape};
 
-/// What is made of a deformed object.
+/// The surface of a deformed object, or the reason why there is none.
 pub(super) enum Made {
     Surface(Box<DeformedSurface>),
     /// Why there is nothing.

@@ -9,7 +9,7 @@
 //! solid primitives", *SIGGRAPH* 1984). Where all warps are lattices and the degree allows, the
 //! patches of `S` become patches of a higher degree instead (`patch/composed.rs`).
 //!
-//! Nothing is asked of a surface but that it has bounds: it may come to meet itself. A closed sewn
+//! The deformed surface may meet itself; it only needs bounds. A closed sewn
 //! one stays a solid; its inside is where the winding number of the deformed faces is not 0.
 
 use super::Parametric;
@@ -32,7 +32,7 @@ use durer_formula::{FormulaError, NodeId, VectorTape};
 use durer_math::{Aabb, Affine, Dd, Interval};
 use std::sync::Arc;
 
-/// What is deformed.
+/// A surface to deform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeformSource {
     /// A Bezier patch.
@@ -126,7 +126,7 @@ impl DeformedSurface {
         Ok(Some(Self { made_of: Arc::new((source, steps)), body }))
     }
 
-    /// What was deformed, and how.
+    /// The surface that was deformed, and the steps.
     pub fn made_of(&self) -> (&DeformSource, &[DeformStep]) {
         (&self.made_of.0, &self.made_of.1)
     }

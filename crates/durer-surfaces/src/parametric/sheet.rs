@@ -33,7 +33,7 @@ pub(super) struct Sheet {
     gap: f64,
     /// The maps whose normals point the other way; none if it is empty.
     turned: Box<[bool]>,
-    /// What is cut out of each map; nothing if it is empty.
+    /// The trims of each map; empty for a surface without trims.
     trims: Box<[Option<FaceTrim>]>,
     /// In the order of the tree.
     pieces: Box<[Piece]>,

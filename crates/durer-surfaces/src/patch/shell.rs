@@ -350,12 +350,13 @@ impl Shell {
         found.truncate(kept);
     }
 
-    /// Whether crossings of two patches are one, on an edge that they share: both may be on an edge, at
-    /// the same place of the line, in the same direction.
+    /// Whether crossings of two patches are one, on an edge that they share: at the same place of the
+    /// line, in the same direction, and one of them may be on an edge. The other one may surely be
+    /// within its own patch, as patches are searched a little beyond their edges.
     #[inline(always)]
     fn is_shared(&self, a: &Found, b: &Found) -> bool {
         let on_edge = |f: &Found| self.faces[f.face as usize].has_on_edge(f);
-        a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && on_edge(a) && on_edge(b)
+        a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && (on_edge(a) || on_edge(b))
     }
 
     /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch

@@ -168,7 +168,8 @@ mod tests {
             let all = bernstein(&mut pen, degree, x).unwrap();
             let sum = all.into_iter().reduce(|a, b| pen.add(a, b).unwrap()).unwrap();
             let value = durer_formula::Tape::new(&pen.done(sum)).value(Point3::new(0.3, 0.0, 0.0));
-            assert!((value - 1.0).abs() < 1e-14, "{degree}: {value}");
+            // Each of at most 8 positive terms has fewer than 20 roundings; they add up to 1.
+            assert!((value - 1.0).abs() < 32.0 * durer_math::U, "{degree}: {value}");
         }
     }
 }

@@ -1,31 +1,63 @@
-//! The same crossing found twice, and candidates without proof.
+//! Joins crossings that are found twice, and decides what unproven candidates are.
 //!
-//! Patches share edges, and a corner whose patches a ray cannot tell apart is a candidate at its
-//! vertex. What may be the same crossing is joined. On a closed surface the candidates that are left
-//! are decided by the order in which a line enters and leaves it.
+//! Patches share edges, so two of them may find the same crossing. A corner that the ray cannot tell
+//! from a point is an unproven candidate at its vertex. Candidates that may be the same crossing are
+//! joined. A line enters and leaves a closed surface alternately; that decides what the remaining
+//! candidates are, and the order of crossings whose brackets overlap.
 
 use super::limit::{Extra, Limit, Lists};
 use crate::patch::line::Found;
 use crate::patch::shell::{is_held, is_on_edge, joined, overlap};
 
-/// A line is outside of a solid or inside.
+/// Sorts crossings along the line. Returns whether the alternation of a closed surface has to decide
+/// some of them: unproven ones, or the order of two whose brackets overlap.
+pub(super) fn is_in_doubt(found: &mut [Found]) -> bool {
+    found.sort_by(|a, b| a.s.total_cmp(&b.s));
+    found.iter().any(|f| f.sign == 0) || found.windows(2).any(|pair| touch(&pair[0], &pair[1]))
+}
+
+fn touch(a: &Found, b: &Found) -> bool {
+    (a.s - b.s).abs() <= a.s_err + b.s_err
+}
+
+/// Exchanges neighbours along a whole line whose brackets overlap and which enter and leave a closed
+/// surface in the wrong order.
+pub(super) fn in_turn(found: &mut [Found], outward: i8) {
+    let mut inside = false;
+    for i in 0..found.len() {
+        let enters = |f: &Found| f.turn * outward < 0;
+        if let Some(next) = found.get(i + 1).copied()
+            && [found[i], next].iter().all(|f| f.sign != 0)
+            && touch(&found[i], &next)
+            && enters(&found[i]) == inside
+            && enters(&next) != inside
+        {
+            found.swap(i, i + 1);
+        }
+        // An unproven candidate counts if it fits.
+        if found[i].turn != 0 && (found[i].sign != 0 || enters(&found[i]) != inside) {
+            inside = enters(&found[i]);
+        }
+    }
+}
+
+/// A crossing on a way through all of them, as a sign, and the side from which the line comes.
 #[derive(Clone, Copy)]
 struct Step {
-    /// The sign of the crossing.
     sign: i8,
-    /// Whether the line was inside before.
     from_inside: bool,
 }
 
-/// Decides what candidates without proof are, sorted along a whole line: a closed surface is entered and left
-/// alternately, and both ends of the line are outside.
+/// Decides the directions of unproven candidates, which are sorted along a whole line: a line enters
+/// and leaves a closed surface alternately, and both ends of the line are outside.
 ///
 /// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
-/// it within the rounding; its direction is that in which these faces are crossed. Of all choices that
-/// alternate this takes one with the fewest changes: a candidate loses its direction (the line passes),
-/// or, at a higher price, has another one. Crossings with proof stay as they are.
+/// it within the rounding; its direction is that in which the line crosses these faces. Of all choices
+/// that alternate, this takes one with the fewest changes: a candidate loses its direction (the line
+/// passes the vertex), or, at a higher price, has another one. Proven crossings stay as they are.
 pub(super) fn alternate(found: &mut [Found], outward: i8) {
-    /// More than all candidates cost together; the price of a surface that crosses itself.
+    /// The price of two proven crossings in the same direction, as of a surface that crosses itself:
+    /// more than all candidates cost together.
     const CONTRADICTION: u64 = 1 << 32;
     // The least cost to be outside, and inside, and the last step on the way there.
     let mut costs = [0, CONTRADICTION << 20];
@@ -50,7 +82,7 @@ pub(super) fn alternate(found: &mut [Found], outward: i8) {
                 reach(across, if turn == across { 0 } else { 2 });
             }
         }
-        // A crossing with proof ends on one side only.
+        // A proven crossing ends on one side only.
         costs = next.map(|cost| cost.min(CONTRADICTION << 20));
         steps.push(step);
     }
@@ -129,8 +161,8 @@ impl Limit {
         }
     }
 
-    /// Sorts along the line, and joins candidates without proof that may be at the same place; if their
-    /// directions differ, they have none together.
+    /// Sorts along the line, and joins unproven candidates that may be at the same place; if their
+    /// directions differ, the joined one has none.
     pub(super) fn join_unproven(&self, lists: &mut Lists) {
         let Lists { found, extra, .. } = lists;
         found.sort_by(|a, b| a.s.total_cmp(&b.s));

@@ -13,7 +13,7 @@
 //! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
 
 use super::Scheme;
-use super::candidates::alternate;
+use super::candidates::{alternate, in_turn, is_in_doubt};
 use super::plan::{Plan, Plans, Wheel, net, refine};
 use super::topology::{Adjacency, Topology};
 use crate::blob::{Along, Inner, Tree};
@@ -232,7 +232,7 @@ pub(super) struct Tail {
     /// The first of its points, rounded, and all of them relative to that.
     base: [f64; 3],
     pub(super) relative: Box<[[f64; 3]]>,
-    pub(super) finer: OnceLock<Box<Finer>>,
+    finer: OnceLock<Box<Finer>>,
 }
 
 /// The four faces of a step.
@@ -250,6 +250,25 @@ impl Tail {
         let less = |p: &[Dd; 3]| [0, 1, 2].map(|c| (p[c] - Dd::from(base[c])).to_f64());
         let relative = node.points.iter().map(less).collect();
         Self { node, base, relative, finer: OnceLock::new() }
+    }
+
+    /// The refined parts. They stay with the corner, unless its surface keeps many already, as `kept`
+    /// counts: then they are in `spare`. `None` if the corner is a patch.
+    pub(super) fn finer<'a>(
+        &'a self,
+        plans: &[Plan],
+        kept: &AtomicUsize,
+        spare: &'a mut Option<Box<Finer>>,
+    ) -> Option<&'a Finer> {
+        if let Some(finer) = self.finer.get() {
+            return Some(finer);
+        }
+        let quarters = self.node.quarters(plans)?;
+        let finer = Box::new(quarters.map(|node| Refined::new(node, plans)));
+        if kept.fetch_add(1, Ordering::Relaxed) < MOST_KEPT {
+            return Some(self.finer.get_or_init(|| finer));
+        }
+        Some(spare.insert(finer))
     }
 }
 
@@ -300,7 +319,7 @@ pub(super) struct Limit {
     pub(super) leaves: Box<[Leaf]>,
     pub(super) tails: Box<[Tail]>,
     /// How many steps of them are kept.
-    kept: AtomicUsize,
+    pub(super) kept: AtomicUsize,
     /// First one for each face.
     pub(super) spots: Box<[Spot]>,
     /// The control points of the leaves in double-double.
@@ -447,10 +466,11 @@ impl Limit {
         self.meet(&at, &mut lists, [begin - ROOM, end + ROOM]);
         if !lists.found.is_empty() {
             self.join(&mut lists);
-            if self.is_closed && lists.found.iter().any(|found| found.sign == 0) {
+            if is_in_doubt(&mut lists.found) && self.is_closed {
                 self.meet(&at, &mut lists, [f64::NEG_INFINITY, f64::INFINITY]);
                 self.join(&mut lists);
                 self.join_unproven(&mut lists);
+                in_turn(&mut lists.found, self.outward);
                 alternate(&mut lists.found, self.outward);
             }
             let mut roots = Sorted::new();
@@ -464,7 +484,7 @@ impl Limit {
                     roots.push(root);
                 }
             }
-            roots.pour(sink);
+            roots.pour_in_turn(sink);
         }
         LISTS.set(lists);
     }
@@ -504,20 +524,6 @@ impl Limit {
         }
     }
 
-    /// The refined parts of a corner, kept with the corner, or in `spare` if too much is kept. `None`
-    /// if the corner is a patch.
-    pub(super) fn finer<'a>(&self, tail: &'a Tail, spare: &'a mut Option<Box<Finer>>) -> Option<&'a Finer> {
-        if let Some(finer) = tail.finer.get() {
-            return Some(finer);
-        }
-        let quarters = tail.node.quarters(&self.plans)?;
-        let finer = Box::new(quarters.map(|node| Refined::new(node, &self.plans)));
-        if self.kept.fetch_add(1, Ordering::Relaxed) < MOST_KEPT {
-            return Some(tail.finer.get_or_init(|| finer));
-        }
-        Some(spare.insert(finer))
-    }
-
     /// What a line meets of a corner.
     fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Tail, window: [f64; 2], lists: &mut Lists) {
         let corners = if self.is_triangles { 3 } else { 4 };
@@ -529,7 +535,7 @@ impl Limit {
         let mut spare = None;
         if !is_noise
             && tail.node.depth < MOST_STEPS
-            && let Some(finer) = self.finer(tail, &mut spare)
+            && let Some(finer) = tail.finer(&self.plans, &self.kept, &mut spare)
         {
             for part in finer {
                 match part {

@@ -62,7 +62,7 @@ impl Limit {
         let mut spare = None;
         if reach > POINT
             && node.depth < MOST_STEPS
-            && let Some(finer) = self.finer(tail, &mut spare)
+            && let Some(finer) = tail.finer(&self.plans, &self.kept, &mut spare)
         {
             return match &finer[node.place.quarter_at(root.tag)] {
                 Refined::Patch(patch) => self.on_leaf(ray, root, &patch.leaf),

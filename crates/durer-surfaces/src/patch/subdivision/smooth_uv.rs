@@ -2,22 +2,20 @@
 //!
 //! The faces make a second mesh, in the plane, with their texture coordinates in place of vertices.
 //! Corners of two faces are one point of it if both name the same coordinates at both ends of the
-//! edge between them; other edges are seams, which are boundaries of this mesh. Its limit is that of the same rules, found over
-//! each face by the same parameters (T. DeRose, M. Kass, T. Truong, "Subdivision surfaces in
-//! character animation", *SIGGRAPH* 1998, section 4: scalar fields).
+//! edge between them; other edges are seams, which are boundaries of this mesh. Its limit is that of
+//! the same rules, found over each face by the same parameters (T. DeRose, M. Kass, T. Truong,
+//! "Subdivision surfaces in character animation", *SIGGRAPH* 1998, section 4: scalar fields).
 
 use super::Scheme;
 use super::data::{Boundary, SubdivisionData};
-use super::limit::{Finer, Node, Place, Refined, Tail};
+use super::limit::{Node, Place, Refined};
 use super::plan::{Plan, Plans};
 use super::topology::{Adjacency, Topology, apply, edge_of};
 use durer_math::{Dd, U};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicUsize;
 
 /// A corner is not refined more often.
 const MOST_STEPS: u32 = 100;
-/// So many steps of corners are kept.
-const MOST_KEPT: usize = 4096;
 
 /// The limit of texture coordinates over the faces of a surface.
 #[derive(Debug)]
@@ -157,7 +155,7 @@ impl SmoothUv {
         let reach = tail.relative.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         if reach > self.point && node.depth < MOST_STEPS {
             let mut spare = None;
-            if let Some(finer) = self.finer(tail, &mut spare) {
+            if let Some(finer) = tail.finer(&self.plans, &self.kept, &mut spare) {
                 return self.in_part(&finer[node.place.quarter_at(tag)], tag);
             }
         }
@@ -168,18 +166,5 @@ impl SmoothUv {
         let last = if self.is_triangles { 2 } else { 3 };
         let at = p[node.vertex(&self.plans).unwrap_or(0)];
         ([0, 1].map(|c| at[c].to_f64()), [0, 1].map(|c| [slope(1, c), slope(last, c)]))
-    }
-
-    /// The refined parts of a corner, kept with the corner, or in `spare` if too much is kept.
-    fn finer<'a>(&self, tail: &'a Tail, spare: &'a mut Option<Box<Finer>>) -> Option<&'a Finer> {
-        if let Some(finer) = tail.finer.get() {
-            return Some(finer);
-        }
-        let quarters = tail.node.quarters(&self.plans)?;
-        let finer = Box::new(quarters.map(|node| Refined::new(node, &self.plans)));
-        if self.kept.fetch_add(1, Ordering::Relaxed) < MOST_KEPT {
-            return Some(tail.finer.get_or_init(|| finer));
-        }
-        Some(spare.insert(finer))
     }
 }

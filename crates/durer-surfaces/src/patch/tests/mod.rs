@@ -405,6 +405,52 @@ fn round(r: f64, y: f64, w: f64) -> Vec<[f64; 4]> {
     ]
 }
 
+/// Patches are searched a little beyond their edges: a crossing less than a rounding from an edge may
+/// be proven on the edge of one patch and within the other.
+#[test]
+fn a_ray_through_a_seam_of_a_tube_crosses_it_once() {
+    let circle = [
+        (1.0, 0.0, 1.0),
+        (1.0, 1.0, 1.0),
+        (0.0, 1.0, 2.0),
+        (-1.0, 1.0, 1.0),
+        (-1.0, 0.0, 1.0),
+        (-1.0, -1.0, 1.0),
+        (0.0, -1.0, 2.0),
+        (1.0, -1.0, 1.0),
+        (1.0, 0.0, 1.0),
+    ];
+    let points = [-1.0, 1.0].map(|y| circle.map(|(x, z, w)| [x, y, z, w])).concat();
+    let around = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+    let data = NurbsData {
+        degree: [2, 1],
+        size: [9, 2],
+        points,
+        knots: [around, vec![0.0, 0.0, 1.0, 1.0]],
+        ..NurbsData::default()
+    };
+    let tube = Nurbs::new(data).unwrap();
+    let found = Ray::new(
+        Point3::new(12.728884204533264, -5.874030458443029, 6.019401330923719),
+        Vec3::new(-2.1315703333504676, 1.0977790370535552, -0.8405455465494965),
+    );
+    assert_eq!(all_roots(&tube, &found).len(), 1);
+    for case in drawn(2000) {
+        let mut dice = crate::laws::dice(31, case);
+        let (x, z) = dice.pick(&[(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]);
+        let at = Point3::new(x, dice.between(-0.5, 0.5), z);
+        let mut direction = dice.vector();
+        // Not along the tube: both crossings lie within its ends.
+        direction.y *= 0.1;
+        let ray = Ray::new(at - direction * dice.between(3.0, 9.0), direction);
+        let roots = all_roots(&tube, &ray);
+        if roots.iter().all(|root| root.kind == RootKind::Simple) {
+            let signs: Vec<i8> = roots.iter().map(|root| root.sign).collect();
+            assert!(signs == [-1, 1] || signs == [1, -1], "{case}: {ray:?} {roots:?}");
+        }
+    }
+}
+
 fn sphere_data() -> NurbsData {
     let h = 0.5_f64.sqrt();
     let rows = [

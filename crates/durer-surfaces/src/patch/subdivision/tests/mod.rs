@@ -161,6 +161,30 @@ fn rays_from_inside_leave_closed_meshes_once_in_turn() {
     report(rays);
 }
 
+/// Two proven crossings less than a rounding apart, behind a third one.
+#[test]
+fn crossings_whose_brackets_overlap_come_in_turn() {
+    let mut data = creased(cube(), &[(1, 5, 10.0), (0, 2, 3.0)], &[(1, 10.0)]);
+    data.vertices = [
+        [-0.9818017863365034, -0.9571054398799983, -0.9643599433603245],
+        [-0.9509010355131184, -0.9828726457837482, 0.966309962197107],
+        [-0.9639362466883732, 1.046463294730906, -0.9595304015487763],
+        [-0.9930892496525676, 1.0213817020174198, 0.9711124983675599],
+        [1.0331607930273354, -0.9926467647648716, -1.0215042538013794],
+        [0.956346057714523, -0.964605751157732, 1.048980601492158],
+        [0.9588518093109728, 1.0300595321257502, -1.0089538172654091],
+        [0.965076537445281, 0.9793891246819062, 1.0268791887277344],
+    ]
+    .map(Point3::from)
+    .to_vec();
+    let ray = Ray::new(
+        Point3::new(0.054793915315445856, 0.08400674545142284, 0.006977800057410226),
+        Vec3::new(-1.0056949508285642, -1.066879391235171, 0.9593321621396967),
+    );
+    let signs: Vec<i8> = all_roots(&surface(&data), &ray).iter().map(|root| root.sign).collect();
+    assert_eq!(signs, [1, -1, 1]);
+}
+
 /// A ray that passes a tip within its rounding meets some of the faces beside it for certain, and has
 /// candidates on others.
 #[test]

@@ -61,7 +61,7 @@ fn normals_at_creases_are_those_of_eigenvectors() {
     for (n, k) in [(6, 3), (7, 3), (9, 3), (12, 5), (14, 6), (15, 7)] {
         let data = slices(n, k);
         let finer = Naive::new(&data).refined();
-        // Of the triangles of one side, what is at the tip.
+        // The corners at the tip of the triangles of one side.
         let at = |v: u32| finer.vertices[v as usize];
         let corners: Vec<&[u32]> = (0..k).map(|i| &finer.faces[3 * (2 * i) + 2][..]).collect();
         let mut points = vec![at(corners[0][1]), at(corners[k - 1][3])];
