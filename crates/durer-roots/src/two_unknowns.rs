@@ -162,6 +162,14 @@ impl Limits {
             if (0..2).all(|i| step[i].abs() <= 2.0 * noise[i] + U) {
                 return self.proven(&local, &y, (x, moved), (step, noise), region);
             }
+            // Where what a step leaves is far less than the errors, another finds nothing: the proof
+            // holds for what is left.
+            let r = 4.0 * (step[0].abs() + noise[0]).max(step[1].abs() + noise[1]);
+            if (0..2).all(|i| r * r * self.turning(&y[i]) <= 0.25 * noise[i])
+                && let Some(zero) = self.proven(&local, &y, (x, moved), (step, noise), region)
+            {
+                return Some(zero);
+            }
             x = moved;
         }
         None

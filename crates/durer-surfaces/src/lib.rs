@@ -44,6 +44,7 @@ pub mod algebraic;
 pub mod annulus;
 pub mod axis_box;
 pub mod blob;
+mod box_tree;
 pub mod compose;
 #[cfg(test)]
 mod corpus;

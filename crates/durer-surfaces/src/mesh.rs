@@ -24,6 +24,7 @@ use crate::{
 };
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Isa, Normal3, Point3, Vec3};
 
@@ -337,15 +338,15 @@ impl Sorted {
     }
 
     #[inline(always)]
-    pub(crate) fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) {
+    pub(crate) fn pour<S: Sink + ?Sized>(mut self, sink: &mut S) -> ControlFlow<()> {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         roots.sort_unstable_by(Root::order);
-        show(roots, sink);
+        show(roots, sink)
     }
 
     /// Passes on roots that were pushed in their exact order along the line: no parameter may be
     /// less than an earlier one.
-    pub(crate) fn pour_in_turn<S: Sink + ?Sized>(mut self, sink: &mut S) {
+    pub(crate) fn pour_in_turn<S: Sink + ?Sized>(mut self, sink: &mut S) -> ControlFlow<()> {
         let roots = if self.many.is_empty() { self.few.as_mut_slice() } else { &mut self.many };
         // A crossing is not beyond the upper end of any later one, and not before an earlier one.
         // Both hold for the exact parameters, so each `t` stays in its bracket.
@@ -359,17 +360,13 @@ impl Sorted {
             first = first.max(root.t);
             root.t = first;
         }
-        show(roots, sink);
+        show(roots, sink)
     }
 }
 
 #[inline(always)]
-fn show<S: Sink + ?Sized>(roots: &[Root], sink: &mut S) {
-    for root in roots {
-        if sink.push(*root).is_break() {
-            return;
-        }
-    }
+fn show<S: Sink + ?Sized>(roots: &[Root], sink: &mut S) -> ControlFlow<()> {
+    roots.iter().try_for_each(|root| sink.push(*root))
 }
 
 impl Surface for Mesh {
@@ -385,7 +382,7 @@ impl Surface for Mesh {
                 roots.push(root);
             }
         }
-        roots.pour(sink);
+        let _ = roots.pour(sink);
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@
 use durer::geometry::Geometry;
 use durer::math::elementary::sin_cos;
 use durer::math::{Ray, Vec3};
-use durer::surfaces::SubdivisionSurface;
+use durer::surfaces::{Steps, SubdivisionSurface};
 use std::error::Error;
 
 /// Numbers that look random: the n-th output of G. L. Steele, D. Lea, C. H. Flood, "Fast splittable
@@ -65,6 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let met = now()?;
+    let first = Steps::take();
     let starts = hits.iter().map(|(ray, hit)| {
         let point = world.resolve(ray, hit);
         let n = point.ng.to_vec();
@@ -77,6 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let drawn = now()?;
     let again = away.iter().filter(|ray| world.closest(ray).is_some()).count();
     let end = now()?;
+    let second = Steps::take();
     let count = rays.len() as f64;
     println!(
         "{} hits; build {:.1} ms, primary {:.0} ns, resolve {:.0} ns a hit, diffuse {:.0} ns ({again} hits); {} bytes told",
@@ -87,6 +89,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         (end - drawn) / count,
         world.stats().bytes
     );
+    for (name, steps) in [("primary", first), ("diffuse", second)] {
+        println!(
+            "{name}: {:.2} evaluations and {:.3} cuts a ray",
+            steps.evaluations as f64 / count,
+            steps.cuts as f64 / count
+        );
+    }
     let status = std::fs::read_to_string("/proc/self/status")?;
     println!("{}", status.lines().find(|l| l.starts_with("VmHWM")).unwrap_or(""));
     Ok(())

@@ -20,16 +20,16 @@ use durer_roots::quadratic::NARROW;
 /// A ray in the frame of a blob, in units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Along {
-    pub(super) o: Vec3,
-    pub(super) d: Vec3,
-    pub(super) inverse: Vec3,
+    pub(crate) o: Vec3,
+    pub(crate) d: Vec3,
+    pub(crate) inverse: Vec3,
     /// Bounds on the errors along any axis.
     pub(super) o_err: f64,
     pub(super) d_err: f64,
     /// The largest coordinate of `o`.
     pub(super) o_size: f64,
     /// Whether the boxes leave room for the ray's errors.
-    pub(super) known: bool,
+    pub(crate) known: bool,
 }
 
 impl Along {

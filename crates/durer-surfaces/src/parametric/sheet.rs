@@ -134,7 +134,7 @@ impl Sheet {
                     roots.push(root);
                 }
             }
-            roots.pour(sink);
+            let _ = roots.pour(sink);
         });
     }
 

@@ -85,7 +85,7 @@ pub(super) fn pour(at: &CentredRay<'_>, turns: &[Turn], sink: &mut dyn Sink) {
         }
     }
     // Going in stays before coming out, also where both are at one place.
-    roots.pour_in_turn(sink);
+    let _ = roots.pour_in_turn(sink);
 }
 
 /// Turns normals to the outside, which may be behind them where the surface overlaps itself.

@@ -86,6 +86,7 @@ pub(super) struct Sight {
 
 impl Sight {
     /// Whether the line provably misses the convex hull of the points.
+    #[inline(always)]
     pub(super) fn is_clear(&self) -> bool {
         (0..2).any(|i| self.f[i][0] > self.e[i] || self.f[i][1] < -self.e[i])
     }
@@ -107,6 +108,7 @@ struct Spread {
 }
 
 impl Line {
+    #[inline(always)]
     fn spread(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> Spread {
         let (mut o, mut o_err) = ([0.0; 3], [0.0; 3]);
         for k in 0..3 {
@@ -139,6 +141,7 @@ impl Line {
 
     /// Whether the line provably misses the convex hull of points relative to `base`, each rounded and
     /// off by `e_points` at most besides.
+    #[inline(always)]
     pub(super) fn misses(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> bool {
         let Spread { f, e, .. } = self.spread(base, points, e_points);
         (0..2).any(|i| f[i][0] > e[i] || f[i][1] < -e[i])
@@ -146,6 +149,7 @@ impl Line {
 
     /// Points relative to `base`, each rounded and off by `e_points` at most besides; the first three
     /// or four are the corners of a face.
+    #[inline(always)]
     pub(super) fn sight(&self, base: [f64; 3], points: &[[f64; 3]], corners: usize, e_points: f64) -> Sight {
         let Spread { f, e, z: zs, z_err, o, o_err, e_net } = self.spread(base, points, e_points);
         let known = (self.d_z.abs() - self.d_z_err).max(0.0);
@@ -177,6 +181,7 @@ impl Line {
 
     /// Where the line passes between the planes along both diagonals of the corners, or along three of
     /// them, that hold all points between them.
+    #[inline(always)]
     fn plane(
         &self,
         points: &[[f64; 3]],
@@ -254,9 +259,41 @@ pub(super) struct Found {
     pub(super) turn: i8,
     /// Whether it may be on a trim.
     pub(super) on_trim: bool,
+    /// Whether the line surely meets the surface of the patch there, perhaps beyond an edge or a trim,
+    /// in the direction of `turn`.
+    pub(super) is_zero: bool,
 }
 
 impl Found {
+    /// One crossing of two patches, found on both: with the place on the one that it is surely within. If
+    /// it may be beyond the edge of each, the bracket holds both places.
+    pub(super) fn united(&self, other: &Self, is_on_edge: impl Fn(&Self) -> bool) -> Self {
+        match (is_on_edge(self), is_on_edge(other)) {
+            (false, true) => *self,
+            (true, false) => *other,
+            (false, false) => *if other.s_err < self.s_err { other } else { self },
+            (true, true) => Self { sign: self.sign, alone: self.alone, ..self.joined(other) },
+        }
+    }
+
+    /// A box that holds both, in which nothing is proven.
+    pub(super) fn joined(&self, other: &Self) -> Self {
+        let (a, b, mut out, wider) = (self, other, *self, 1.0 + 4.0 * U);
+        // Parameters of different patches do not mix.
+        for k in 0..if a.face == b.face { 2 } else { 0 } {
+            let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
+            let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
+            (out.uv[k], out.radius[k]) = (0.5 * (low + high), 0.5 * (high - low) * wider + U);
+        }
+        let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));
+        (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
+        (out.sign, out.alone) = (0, [0.0; 2]);
+        out.turn = if a.turn == b.turn { a.turn } else { 0 };
+        out.on_trim = a.on_trim || b.on_trim;
+        out.is_zero = a.is_zero && b.is_zero && a.turn == b.turn;
+        out
+    }
+
     /// Whether it may be in the triangle `u + v <= 1`.
     #[inline(always)]
     fn reaches_triangle(&self) -> bool {
@@ -412,6 +449,7 @@ impl<'a> View<'a> {
             sign,
             turn: sign,
             on_trim: false,
+            is_zero: true,
         };
         (!cell.is_half || found.reaches_triangle()).then_some(found)
     }
@@ -454,6 +492,7 @@ impl<'a> View<'a> {
             sign: 0,
             turn: self.turn(from, width),
             on_trim: false,
+            is_zero: false,
         }
     }
 }

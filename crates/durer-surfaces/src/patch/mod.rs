@@ -28,6 +28,8 @@
 //! [`RootKind::Cluster`]: crate::RootKind::Cluster
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes")]
 
+mod ahead;
+mod alternation;
 mod cell;
 pub(crate) mod composed;
 mod exact;

@@ -12,6 +12,7 @@ use super::cell::Cell;
 use super::line::Found;
 use super::shell::{Lists, Shell};
 use crate::CentredRay;
+use core::ops::ControlFlow;
 
 /// What it costs to add a crossing, and to leave one out: that is the last resort, lest a line through
 /// an overlap and a gap be lost.
@@ -162,7 +163,9 @@ impl Shell {
 
     /// All crossings of a line and a closed shell with gaps.
     pub(super) fn meet_sealed(&self, at: &CentredRay<'_>, lists: &mut Lists) {
-        self.meet::<true>(at, lists, (f64::NEG_INFINITY, f64::INFINITY));
+        lists.ahead.close();
+        let line = (f64::NEG_INFINITY, f64::INFINITY);
+        let _ = self.meet::<true>(at, lists, line, |_, _| ControlFlow::Continue(f64::INFINITY));
         let Lists { found, off, .. } = lists;
         self.distinct(found);
         self.distinct(off);

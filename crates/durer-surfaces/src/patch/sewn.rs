@@ -168,6 +168,7 @@ impl Sewn {
             }
             let group_of: Vec<usize> = surface_of.iter().map(|s| groups[*s].0).collect();
             shell.turn_outward(&group_of)?;
+            shell.is_closed = true;
         }
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: spans.into() })
     }

@@ -1,14 +1,18 @@
 //! Patches as one surface: their cells in a tree, and all crossings of a ray, each once.
 
+use super::ahead::Ahead;
+use super::alternation::{decide, is_in_doubt};
 use super::cell::{Cell, EDGE, Trimmed, cells};
 use super::exact::Exact;
 use super::line::{Found, Line, View};
 use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
-use crate::blob::{Along, Inner, Tree};
+use crate::blob::Along;
+use crate::box_tree::{BoxTree, Open};
 use crate::mesh::Sorted;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink, steps};
 use core::cell::Cell as Slot;
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 use durer_roots::two_unknowns::ROUNDED;
@@ -74,7 +78,9 @@ pub(crate) struct Shell {
     nets: Box<[FaceNet]>,
     /// In the order of the tree.
     cells: Box<[Cell]>,
-    tree: Tree,
+    tree: BoxTree,
+    /// Whether it bounds a solid, out of which all normals point.
+    pub(super) is_closed: bool,
     /// Gaps between faces up to this wide are closed, in units; 0: none are looked for.
     pub(super) seal: f64,
 }
@@ -82,8 +88,11 @@ pub(crate) struct Shell {
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
 pub(super) struct Lists {
-    pub(super) nodes: Vec<u32>,
+    open: Open,
     pub(super) found: Vec<Found>,
+    /// Those that are passed on before the line has been searched to its end.
+    early: Vec<Found>,
+    pub(super) ahead: Ahead,
     /// Crossings off their face, within the seal of its edge.
     pub(super) off: Vec<Found>,
 }
@@ -199,7 +208,7 @@ impl Shell {
         let seal = scale2(seal, -scale);
         let around = Vec3::new(seal, seal, seal);
         let boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| bounds.expanded(around)).collect();
-        let (tree, order) = Tree::new(&boxes);
+        let (tree, order) = BoxTree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
         let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
@@ -219,6 +228,7 @@ impl Shell {
             nets: exact.into(),
             cells,
             tree,
+            is_closed: false,
             seal,
         })
     }
@@ -252,70 +262,121 @@ impl Shell {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
         let (before, mut unproven) = (steps::before(), 0);
+        let mut is_ended = ControlFlow::Continue(());
+        lists.ahead = Ahead::default();
         if self.seal > 0.0 {
             self.meet_sealed(&at, &mut lists);
         } else {
-            self.meet::<false>(&at, &mut lists, (ray.t_min, ray.t_max.min(sink.limit())));
+            let window = |limit: f64| at.window((ray.t_min, ray.t_max.min(limit)));
+            let range = window(sink.limit());
+            is_ended = self.meet::<false>(&at, &mut lists, range, |lists, near| {
+                self.send(&at, lists, near, sink)?;
+                ControlFlow::Continue(window(sink.limit()).1)
+            });
         }
-        if !lists.found.is_empty() {
-            let found = self.distinct(&mut lists.found);
-            let mut roots = Sorted::new();
-            for crossing in found {
-                let tag = self.faces[crossing.face as usize].clamped(crossing.uv);
-                if let Some(root) = root(&at, crossing, tag) {
-                    unproven += usize::from(root.kind != RootKind::Simple);
-                    roots.push(root);
-                }
+        let sent = lists.ahead.sent;
+        if is_ended.is_continue() && !lists.found.is_empty() {
+            self.distinct(&mut lists.found);
+            if self.is_closed && self.seal == 0.0 && is_in_doubt(&mut lists.found, |f| self.has_on_edge(f)) {
+                lists.ahead.close();
+                let line = (f64::NEG_INFINITY, f64::INFINITY);
+                let _ =
+                    self.meet::<false>(&at, &mut lists, line, |_, _| ControlFlow::Continue(f64::INFINITY));
+                self.distinct(&mut lists.found);
+                decide(&mut lists.found, 1, |f| self.has_on_edge(f), |_| 0.0);
             }
-            roots.pour(sink);
+            lists.found.retain(|found| found.s > sent);
+            unproven = self.pour(&at, &lists.found, sink).1;
         }
         steps::done(before, unproven);
         LISTS.set(lists);
     }
 
-    /// Crossings in a range, not yet told apart: of what stays of the faces and, if they are `SEALED`,
-    /// of what is off them but within the seal.
+    /// Passes on the crossings that no cell from `near` on can change.
     #[inline(always)]
-    pub(super) fn meet<const SEALED: bool>(&self, at: &CentredRay<'_>, lists: &mut Lists, range: (f64, f64)) {
-        let along = Along::new(at);
-        let (begin, end) = at.window(range);
-        let (begin, end) = (begin - ROOM, end + ROOM);
-        let line = Line::new(at);
-        let exact = Exact::new(at, &self.nets, line.axes);
-        let Lists { nodes, found, off } = lists;
-        nodes.clear();
-        found.clear();
-        off.clear();
-        nodes.push(0);
-        while let Some(node) = nodes.pop() {
-            let Some((near, far)) = self.tree.entry(node, &along) else { continue };
-            if far < begin || near > end {
-                continue;
-            }
-            match self.tree.inner(node) {
-                Inner::Nodes(a, b) => {
-                    nodes.push(a);
-                    nodes.push(b);
-                }
-                Inner::Leaf(from, to) => {
-                    for cell in &self.cells[from..to] {
-                        let first = found.len();
-                        let room = if SEALED { EDGE } else { 0.0 };
-                        View::new(&line, cell, self.rational).meet(&exact, found, room);
-                        if self.faces[cell.face as usize].is_turned {
-                            for f in &mut found[first..] {
-                                (f.sign, f.turn) = (-f.sign, -f.turn);
-                            }
-                        }
-                        if SEALED {
-                            self.sort_out(cell, found, first, off);
-                        } else if cell.trimmed == Trimmed::Across {
-                            self.trim(found, first);
-                        }
-                    }
-                }
+    fn send(
+        &self,
+        at: &CentredRay<'_>,
+        lists: &mut Lists,
+        near: f64,
+        sink: &mut dyn Sink,
+    ) -> ControlFlow<()> {
+        let Lists { found, early, ahead, .. } = lists;
+        let count = ahead.known(found, near);
+        if count == 0 {
+            return ControlFlow::Continue(());
+        }
+        early.clear();
+        early.extend_from_slice(&found[..count]);
+        self.distinct(early);
+        if is_in_doubt(early, |f| self.has_on_edge(f))
+            && (self.is_closed || early.iter().any(|f| f.sign == 0))
+        {
+            ahead.close();
+            return ControlFlow::Continue(());
+        }
+        ahead.send(found, count, near);
+        self.pour(at, early, sink).0
+    }
+
+    /// Passes crossings, ascending, to `sink`; and how many of them are unproven.
+    #[inline(always)]
+    fn pour(&self, at: &CentredRay<'_>, found: &[Found], sink: &mut dyn Sink) -> (ControlFlow<()>, usize) {
+        let (mut roots, mut unproven) = (Sorted::new(), 0);
+        for crossing in found {
+            let tag = self.faces[crossing.face as usize].clamped(crossing.uv);
+            if let Some(root) = root(at, crossing, tag) {
+                unproven += usize::from(root.kind != RootKind::Simple);
+                roots.push(root);
             }
         }
+        // What alternation has decided stays in its order.
+        let is_in_turn = self.is_closed && self.seal == 0.0;
+        (if is_in_turn { roots.pour_in_turn(sink) } else { roots.pour(sink) }, unproven)
+    }
+
+    /// Crossings in a range of the line, not yet told apart: of what stays of the faces and, if they are
+    /// `SEALED`, of what is off them but within the seal. `send` is called with the place where the next
+    /// cell begins, whenever crossings may be left behind; it says where the range ends now.
+    #[inline(always)]
+    pub(super) fn meet<const SEALED: bool>(
+        &self,
+        at: &CentredRay<'_>,
+        lists: &mut Lists,
+        (begin, end): (f64, f64),
+        mut send: impl FnMut(&mut Lists, f64) -> ControlFlow<(), f64>,
+    ) -> ControlFlow<()> {
+        let along = Along::new(at);
+        let mut window = [begin - ROOM, end + ROOM];
+        let line = Line::new(at);
+        let exact = Exact::new(at, &self.nets, line.axes);
+        lists.found.clear();
+        lists.off.clear();
+        self.tree.begin(&mut lists.open);
+        while let Some((near, number)) = self.tree.next(&along, window, &mut lists.open) {
+            if near > lists.ahead.due {
+                window[1] = send(lists, near)? + ROOM;
+                if near > window[1] {
+                    break;
+                }
+            }
+            let Lists { found, off, ahead, .. } = lists;
+            let (cell, first) = (&self.cells[number], found.len());
+            let room = if SEALED { EDGE } else { 0.0 };
+            View::new(&line, cell, self.rational).meet(&exact, found, room);
+            if self.faces[cell.face as usize].is_turned {
+                for f in &mut found[first..] {
+                    (f.sign, f.turn) = (-f.sign, -f.turn);
+                }
+            }
+            if SEALED {
+                self.sort_out(cell, found, first, off);
+            } else if cell.trimmed == Trimmed::Across {
+                self.trim(found, first);
+            }
+            ahead.note(&found[first..]);
+        }
+        ControlFlow::Continue(())
     }
 }
 
@@ -355,14 +416,21 @@ impl Shell {
     /// within its own patch, as patches are searched a little beyond their edges.
     #[inline(always)]
     fn is_shared(&self, a: &Found, b: &Found) -> bool {
-        let on_edge = |f: &Found| self.faces[f.face as usize].has_on_edge(f);
-        a.turn == b.turn && (a.s - b.s).abs() <= a.s_err + b.s_err && (on_edge(a) || on_edge(b))
+        a.turn == b.turn
+            && (a.s - b.s).abs() <= a.s_err + b.s_err
+            && (self.has_on_edge(a) || self.has_on_edge(b))
+    }
+
+    /// Whether a crossing may be on an edge of its face.
+    #[inline(always)]
+    fn has_on_edge(&self, f: &Found) -> bool {
+        self.faces[f.face as usize].has_on_edge(f)
     }
 
     /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
     /// each other and in which nothing is proven.
     #[inline(always)]
-    pub(super) fn distinct<'f>(&self, found: &'f mut Vec<Found>) -> &'f [Found] {
+    pub(super) fn distinct(&self, found: &mut Vec<Found>) {
         if found.len() > 1 {
             // Proven ones first.
             found.sort_by_key(|f| f.sign == 0);
@@ -382,7 +450,9 @@ impl Shell {
                         let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
                         if old.sign == 0 || !known {
                             // Nothing says whether that is one crossing or two.
-                            *old = joined(old, &new);
+                            *old = old.joined(&new);
+                        } else if new.sign != 0 && old.face != new.face {
+                            *old = old.united(&new, |f| self.has_on_edge(f));
                         } else if new.sign != 0 && new.s_err < old.s_err {
                             // Of two proofs the sharper one is kept.
                             *old = new;
@@ -397,7 +467,6 @@ impl Shell {
             found.truncate(kept);
             join_all(found);
         }
-        found
     }
 }
 
@@ -433,7 +502,7 @@ fn join_all(found: &mut Vec<Found>) {
             });
             match other {
                 Some(j) => {
-                    found[i] = joined(&found[i], &found[j]);
+                    found[i] = found[i].joined(&found[j]);
                     found.swap_remove(j);
                     changed = true;
                 }
@@ -441,23 +510,6 @@ fn join_all(found: &mut Vec<Found>) {
             }
         }
     }
-}
-
-/// A box that holds two others, in which nothing is proven.
-pub(super) fn joined(a: &Found, b: &Found) -> Found {
-    let (mut out, wider) = (*a, 1.0 + 4.0 * U);
-    // Parameters of different patches do not mix.
-    for k in 0..if a.face == b.face { 2 } else { 0 } {
-        let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
-        let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
-        (out.uv[k], out.radius[k]) = (0.5 * (low + high), 0.5 * (high - low) * wider + U);
-    }
-    let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));
-    (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));
-    (out.sign, out.alone) = (0, [0.0; 2]);
-    out.turn = if a.turn == b.turn { a.turn } else { 0 };
-    out.on_trim = a.on_trim || b.on_trim;
-    out
 }
 
 /// A crossing in the caller's parameter, with its parameters on the surface; `None` if it is not in

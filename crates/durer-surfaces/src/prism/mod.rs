@@ -425,14 +425,14 @@ impl Surface for Prism {
                     roots.push(root(&probe, crossing, *face, *wall, crossing.sign != sign));
                 }
             }
-            roots.pour_in_turn(sink);
+            let _ = roots.pour_in_turn(sink);
         } else {
             self.each_crossing(&probe, |crossing, plane, face, wall, turned| {
                 if is_shown(face) && admitted(&crossing, &plane) {
                     roots.push(root(&probe, &crossing, face, wall, turned));
                 }
             });
-            roots.pour(sink);
+            let _ = roots.pour(sink);
         }
     }
 
@@ -578,7 +578,7 @@ impl Accelerate for Prism {
             Some(PrismPart::Cap(cap)) => cap_crossing(&probe, cap, &mut take),
             None => {}
         }
-        roots.pour(sink);
+        let _ = roots.pour(sink);
     }
 }
 

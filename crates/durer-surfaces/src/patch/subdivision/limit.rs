@@ -13,18 +13,21 @@
 //! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
 
 use super::Scheme;
-use super::candidates::{alternate, in_turn, is_in_doubt};
 use super::plan::{Plan, Plans, Wheel, net, refine};
 use super::topology::{Adjacency, Topology};
-use crate::blob::{Along, Inner, Tree};
+use crate::blob::Along;
+use crate::box_tree::{BoxTree, Open};
 use crate::mesh::Sorted;
+use crate::patch::ahead::Ahead;
+use crate::patch::alternation::{alternate, decide, in_turn, is_in_doubt, join_unproven};
 use crate::patch::cell::{Cell, cells};
 use crate::patch::exact::Exact;
 use crate::patch::line::{Found, Line, View};
 use crate::patch::net::{FaceNet, relative};
-use crate::patch::shell::{Face, ROOM, clamped, root};
+use crate::patch::shell::{Face, ROOM, clamped, is_on_edge, root};
 use crate::{CentredRay, LocalRay, Sink};
 use core::cell::Cell as Slot;
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 use std::sync::OnceLock;
@@ -326,7 +329,7 @@ pub(super) struct Limit {
     nets: Box<[FaceNet]>,
     cells: Box<[Cell]>,
     items: Box<[Item]>,
-    tree: Tree,
+    tree: BoxTree,
     pub(super) is_triangles: bool,
     /// -1 if normals point into the solid.
     pub(super) outward: i8,
@@ -345,9 +348,12 @@ pub(super) struct Extra {
 /// Lists of one ray, kept by the thread so that rays do not allocate.
 #[derive(Default)]
 pub(super) struct Lists {
-    nodes: Vec<u32>,
+    open: Open,
     pub(super) found: Vec<Found>,
+    /// Those that are passed on before the line has been searched to its end.
+    early: Vec<Found>,
     pub(super) extra: Vec<Extra>,
+    ahead: Ahead,
 }
 
 thread_local! {
@@ -424,7 +430,7 @@ impl Limit {
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
         let mut boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
         boxes.extend(tails.iter().map(|tail| hull(&tail.node.points).expanded(room)));
-        let (tree, order) = Tree::new(&boxes);
+        let (tree, order) = BoxTree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)).expanded(room);
         let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
         let bounds = Aabb::new(back(units.min), back(units.max));
@@ -462,31 +468,93 @@ impl Limit {
     pub(super) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
         let at = ray.recentre(self.centre, self.scale).sharp(1.0);
         let mut lists = LISTS.take();
-        let (begin, end) = at.window((ray.t_min, ray.t_max.min(sink.limit())));
-        self.meet(&at, &mut lists, [begin - ROOM, end + ROOM]);
-        if !lists.found.is_empty() {
-            self.join(&mut lists);
-            if is_in_doubt(&mut lists.found) && self.is_closed {
-                self.meet(&at, &mut lists, [f64::NEG_INFINITY, f64::INFINITY]);
-                self.join(&mut lists);
-                self.join_unproven(&mut lists);
-                in_turn(&mut lists.found, self.outward);
-                alternate(&mut lists.found, self.outward);
+        let window = |limit: f64| {
+            let (begin, end) = at.window((ray.t_min, ray.t_max.min(limit)));
+            [begin - ROOM, end + ROOM]
+        };
+        let all = window(sink.limit());
+        let mut end = all[1];
+        lists.ahead = Ahead::default();
+        let is_ended = self.meet(&at, &mut lists, all, |lists, near| {
+            self.send(&at, lists, near, sink)?;
+            end = window(sink.limit())[1];
+            ControlFlow::Continue(end)
+        });
+        let sent = lists.ahead.sent;
+        lists.found.retain(|found| found.s - found.s_err <= end);
+        if is_ended.is_continue() && !lists.found.is_empty() {
+            self.join(&mut lists.found, &lists.extra);
+            if is_in_doubt(&mut lists.found, |f| is_on_edge(self.is_triangles, f)) && self.is_closed {
+                lists.ahead.close();
+                let line = [f64::NEG_INFINITY, f64::INFINITY];
+                let _ = self.meet(&at, &mut lists, line, |_, _| ControlFlow::Continue(f64::INFINITY));
+                self.join(&mut lists.found, &lists.extra);
+                self.decide(&mut lists);
             }
-            let mut roots = Sorted::new();
-            for crossing in &lists.found {
-                let place = self.place(crossing, &lists.extra);
-                let mut crossing = *crossing;
-                crossing.face = place.face;
-                crossing.sign *= self.outward;
-                crossing.turn *= self.outward;
-                if let Some(root) = root(&at, &crossing, place.outer(crossing.uv)) {
-                    roots.push(root);
-                }
-            }
-            roots.pour_in_turn(sink);
+            lists.found.retain(|found| found.s > sent);
+            let _ = self.pour(&at, &lists.found, &lists.extra, sink);
         }
         LISTS.set(lists);
+    }
+
+    /// Decides what the crossings along a whole line are.
+    #[cold]
+    #[inline(never)]
+    fn decide(&self, lists: &mut Lists) {
+        let Lists { found, extra, .. } = lists;
+        let room = |f: &Found| self.room(f, extra);
+        if !decide(found, self.outward, |f| is_on_edge(self.is_triangles, f), room) {
+            join_unproven(found, room);
+            in_turn(found, self.outward);
+            alternate(found, self.outward);
+        }
+    }
+
+    /// Passes on the crossings that no part of the surface from `near` on can change.
+    #[inline(always)]
+    fn send(
+        &self,
+        at: &CentredRay<'_>,
+        lists: &mut Lists,
+        near: f64,
+        sink: &mut dyn Sink,
+    ) -> ControlFlow<()> {
+        let Lists { found, early, extra, ahead, .. } = lists;
+        let count = ahead.known(found, near);
+        early.clear();
+        early.extend_from_slice(&found[..count]);
+        self.join(early, extra);
+        if is_in_doubt(early, |f| is_on_edge(self.is_triangles, f)) {
+            ahead.close();
+            return ControlFlow::Continue(());
+        }
+        if count > 0 {
+            ahead.send(found, count, near);
+        }
+        self.pour(at, early, extra, sink)
+    }
+
+    /// Passes crossings in their order to `sink`.
+    #[inline(always)]
+    fn pour(
+        &self,
+        at: &CentredRay<'_>,
+        found: &[Found],
+        extra: &[Extra],
+        sink: &mut dyn Sink,
+    ) -> ControlFlow<()> {
+        let mut roots = Sorted::new();
+        for crossing in found {
+            let place = self.place(crossing, extra);
+            let mut crossing = *crossing;
+            crossing.face = place.face;
+            crossing.sign *= self.outward;
+            crossing.turn *= self.outward;
+            if let Some(root) = root(at, &crossing, place.outer(crossing.uv)) {
+                roots.push(root);
+            }
+        }
+        roots.pour_in_turn(sink)
     }
 
     pub(super) fn place(&self, found: &Found, extra: &[Extra]) -> Place {
@@ -494,38 +562,57 @@ impl Limit {
         self.leaves.get(k).map_or_else(|| extra[k - self.leaves.len()].place, |leaf| leaf.place)
     }
 
+    /// Finds the crossings in a window. `send` is called with the place where the next part of the
+    /// surface begins, whenever crossings may be left behind; it says where the window ends now.
     #[inline(always)]
-    fn meet(&self, at: &CentredRay<'_>, lists: &mut Lists, window: [f64; 2]) {
+    fn meet(
+        &self,
+        at: &CentredRay<'_>,
+        lists: &mut Lists,
+        mut window: [f64; 2],
+        mut send: impl FnMut(&mut Lists, f64) -> ControlFlow<(), f64>,
+    ) -> ControlFlow<()> {
         let along = Along::new(at);
         let line = Line::new(at);
         let exact = Exact::new(at, &self.nets, line.axes);
-        lists.nodes.clear();
         lists.found.clear();
         lists.extra.clear();
-        lists.nodes.push(0);
-        while let Some(node) = lists.nodes.pop() {
-            let Some((near, far)) = self.tree.entry(node, &along) else { continue };
-            if far < window[0] || near > window[1] {
-                continue;
-            }
-            match self.tree.inner(node) {
-                Inner::Nodes(a, b) => lists.nodes.extend([a, b]),
-                Inner::Leaf(from, to) => {
-                    for item in &self.items[from..to] {
-                        match *item {
-                            Item::Cell(k) => {
-                                meet_cell(&line, &self.cells[k as usize], &exact, &mut lists.found);
-                            }
-                            Item::Tail(k) => self.unfold(at, &line, &self.tails[k as usize], window, lists),
-                        }
-                    }
+        self.tree.begin(&mut lists.open);
+        while let Some((near, item)) = self.tree.next(&along, window, &mut lists.open) {
+            if near > lists.ahead.due {
+                window[1] = send(lists, near)?;
+                if near > window[1] {
+                    break;
                 }
             }
+            let first = lists.found.len();
+            match self.items[item] {
+                Item::Cell(k) => meet_cell(&line, &self.cells[k as usize], &exact, &mut lists.found),
+                Item::Tail(k) => self.unfold(at, &line, &self.tails[k as usize], window, lists),
+            }
+            lists.ahead.note(&lists.found[first..]);
         }
+        ControlFlow::Continue(())
     }
 
-    /// What a line meets of a corner.
+    /// Finds what a line meets of a corner.
+    #[inline(never)]
     fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Tail, window: [f64; 2], lists: &mut Lists) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.unfold_here(at, line, tail, window, lists),
+        );
+    }
+
+    #[inline(always)]
+    fn unfold_here(
+        &self,
+        at: &CentredRay<'_>,
+        line: &Line,
+        tail: &Tail,
+        window: [f64; 2],
+        lists: &mut Lists,
+    ) {
         let corners = if self.is_triangles { 3 } else { 4 };
         let sight = line.sight(tail.base, &tail.relative, corners, E_POINTS);
         if sight.is_clear() || sight.s[1] < window[0] || sight.s[0] > window[1] {
@@ -561,10 +648,12 @@ impl Limit {
             sign: 0,
             turn: sight.turn,
             on_trim: false,
+            is_zero: false,
         });
     }
 
     /// Finds where a line meets a patch of a corner.
+    #[inline(always)]
     fn meet_patch(&self, at: &CentredRay<'_>, line: &Line, patch: &Patch, lists: &mut Lists) {
         // The hull of its own net is much smaller than that of the points about it.
         if line.misses(patch.leaf.base, &patch.hull, E_POINTS) {

@@ -27,6 +27,7 @@ fn vector(p: [Dd; 3]) -> Vec3 {
 
 impl Limit {
     /// The point of a root.
+    #[inline(always)]
     pub(super) fn point(&self, ray: &LocalRay<'_>, root: &Root) -> SurfacePoint {
         let mut place = Place::of(root.face, self.is_triangles);
         let Some(mut spot) = self.spots.get(root.face as usize).copied() else {
@@ -45,6 +46,7 @@ impl Limit {
         point
     }
 
+    #[inline(always)]
     fn on_leaf(&self, ray: &LocalRay<'_>, root: &Root, leaf: &Leaf) -> SurfacePoint {
         let (face, place) = (&leaf.face, &leaf.place);
         let uv = place.inner(root.tag);

@@ -440,9 +440,10 @@ fn a_ray_through_a_seam_of_a_tube_crosses_it_once() {
         let (x, z) = dice.pick(&[(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]);
         let at = Point3::new(x, dice.between(-0.5, 0.5), z);
         let mut direction = dice.vector();
-        // Not along the tube: both crossings lie within its ends.
-        direction.y *= 0.1;
-        let ray = Ray::new(at - direction * dice.between(3.0, 9.0), direction);
+        // Not along the tube: both crossings lie within its ends, and the origin outside.
+        direction.y = dice.between(-0.2, 0.2) * (direction.x.abs() + direction.z.abs());
+        let way = dice.between(3.0, 9.0) / direction.length();
+        let ray = Ray::new(at - direction * way, direction);
         let roots = all_roots(&tube, &ray);
         if roots.iter().all(|root| root.kind == RootKind::Simple) {
             let signs: Vec<i8> = roots.iter().map(|root| root.sign).collect();

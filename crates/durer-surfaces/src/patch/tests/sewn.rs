@@ -113,6 +113,55 @@ fn no_ray_escapes_from_a_box_of_six_faces() {
     report(20_000);
 }
 
+/// A ray past an edge, or nearly in the plane of a face beside it: whatever the faces tell by themselves,
+/// the ray enters and leaves alternately, and is outside at both ends.
+#[test]
+fn a_line_at_an_edge_enters_and_leaves_in_turn() {
+    let solid = closed(cube(|p| p), 0.0);
+    let found = [
+        // It left before it entered.
+        [
+            0.3278359872046709,
+            2.5506564107340948,
+            0.34458440127290957,
+            0.33608200639766456,
+            -0.7753282053670473,
+            -0.43918248402792015,
+        ],
+        // It entered once, and never left.
+        [
+            0.9999999999999966,
+            2.1738276275480075,
+            0.28685799543810764,
+            1.7427319901556143e-15,
+            -0.5869138137740039,
+            -0.14701897217741777,
+        ],
+        // It entered twice.
+        [
+            1.000000000000027,
+            3.559519218744533,
+            3.9084996263569125,
+            -6.751855225660978e-15,
+            -0.6398798046861333,
+            -0.7982506012083666,
+        ],
+    ];
+    let found = found.map(|[x, y, z, a, b, c]| Ray::new(Point3::new(x, y, z), Vec3::new(a, b, c)));
+    let random = drawn(3000).map(|case| {
+        let mut dice = crate::laws::dice(83, case);
+        let at = Point3::new(1.0, 1.0, dice.between(-0.9, 0.9));
+        let tilt = dice.scale(-50, 0);
+        let d = Vec3::new(dice.pick(&[1.0, -1.0]) * tilt, -dice.between(0.1, 1.0), dice.between(-1.0, 1.0));
+        Ray::new(at - d * dice.pick(&[1.0, 2.0, 4.0]), d)
+    });
+    for ray in found.into_iter().chain(random) {
+        let ray = ray.with_range(f64::NEG_INFINITY, f64::INFINITY);
+        let signs: Vec<i8> = all_roots(&solid, &ray).iter().map(|r| r.sign).filter(|s| *s != 0).collect();
+        assert!(signs.is_empty() || signs == [-1, 1], "{ray:?} {signs:?}");
+    }
+}
+
 #[test]
 fn no_ray_escapes_from_a_rational_sphere_and_torus() {
     let solids = [closed(vec![sphere_data()], 0.0), closed(vec![torus_data(0.25)], 0.0)];

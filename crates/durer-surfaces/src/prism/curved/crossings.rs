@@ -201,7 +201,7 @@ impl CurvedPrism {
                 roots.push(self.cap_root(&probe, &crossing, top));
             }
         }
-        roots.pour(sink);
+        let _ = roots.pour(sink);
     }
 
     #[inline(always)]
@@ -284,7 +284,7 @@ impl CurvedPrism {
                 }
             }
         }
-        roots.pour_in_turn(sink);
+        let _ = roots.pour_in_turn(sink);
     }
 
     #[inline(never)]

@@ -360,7 +360,7 @@ impl<'a, 'r> Pass<'a, 'r> {
                 roots.push(self.root(crossed, right));
             }
         }
-        roots.pour_in_turn(sink);
+        let _ = roots.pour_in_turn(sink);
     }
 
     #[inline(always)]

@@ -1,0 +1,67 @@
+//! Crossings that are passed on before a line has been searched to its end.
+//!
+//! Pieces come in the order in which the line may meet them. A crossing that lies before the next piece
+//! cannot be found again, nor be one that is joined with a later one: both would be in the later
+//! piece's box. So it is passed on, and often no more are wanted. Unproven crossings need the others on
+//! the line; the first of them ends this.
+
+use super::line::Found;
+use super::shell::ROOM;
+
+/// How far a search has come.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
+    /// A piece that may be met only beyond this leaves the first crossings behind.
+    pub(super) due: f64,
+    /// Crossings up to here have been passed on.
+    pub(super) sent: f64,
+    is_open: bool,
+}
+
+impl Default for Ahead {
+    fn default() -> Self {
+        Self { due: f64::INFINITY, sent: f64::NEG_INFINITY, is_open: true }
+    }
+}
+
+impl Ahead {
+    /// Nothing is passed on before the end, from now on.
+    pub(super) fn close(&mut self) {
+        (self.due, self.is_open) = (f64::INFINITY, false);
+    }
+
+    /// Counts crossings that have been found.
+    #[inline(always)]
+    pub(super) fn note(&mut self, new: &[Found]) {
+        if self.is_open {
+            // Brackets of proven crossings are far less than half as wide as the room.
+            self.due = new.iter().fold(self.due, |due, f| due.min(f.s + f.s_err + ROOM));
+        }
+    }
+
+    /// How many crossings, which it sorts along the line, lie before all pieces from `near` on and apart
+    /// from the other crossings.
+    pub(super) fn known(&mut self, found: &mut [Found], near: f64) -> usize {
+        if found.iter().any(|f| f.sign == 0 || f.s_err > 0.25 * ROOM) {
+            self.close();
+            return 0;
+        }
+        found.sort_by(|a, b| a.s.total_cmp(&b.s));
+        let count = found.partition_point(|f| f.s <= near - ROOM);
+        let reach = |f: &Found| f.s + f.s_err;
+        let end = found[..count].iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
+        if found[count..].iter().any(|f| f.s - f.s_err <= end) {
+            // They are left behind together.
+            self.due = found.iter().map(reach).fold(self.due, f64::max) + ROOM;
+            return 0;
+        }
+        count
+    }
+
+    /// Counts the first crossings as passed on.
+    pub(super) fn send(&mut self, found: &mut Vec<Found>, count: usize, near: f64) {
+        found.drain(..count);
+        (self.sent, self.due) = (near - ROOM, f64::INFINITY);
+        self.note(found);
+    }
+}

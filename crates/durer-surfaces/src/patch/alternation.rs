@@ -1,0 +1,147 @@
+//! A line enters and leaves a closed surface alternately.
+//!
+//! Where f64 does not decide, that does: whether the line crosses at an unproven place or touches there,
+//! the order of crossings whose brackets overlap, and whether a crossing that is within its error of
+//! the edge of its patch is on the patch. Beside a sharp edge each of its two patches counts by itself,
+//! and a line that passes the edge within the errors may seem to meet one of them, both, or none.
+
+use super::line::Found;
+
+/// The price of two crossings in the same direction, as of a surface that crosses itself: more than
+/// all candidates cost together.
+const CONTRADICTION: u64 = 1 << 32;
+
+fn touch(a: &Found, b: &Found) -> bool {
+    (a.s - b.s).abs() <= a.s_err + b.s_err
+}
+
+/// Sorts crossings along the line. Returns whether the alternation of a closed surface has to decide
+/// some of them: unproven ones, ones that may be beyond an edge, or the order of two whose brackets
+/// overlap.
+pub(super) fn is_in_doubt(found: &mut [Found], is_on_edge: impl Fn(&Found) -> bool) -> bool {
+    found.sort_by(|a, b| a.s.total_cmp(&b.s));
+    found.iter().any(|f| f.sign == 0 || is_on_edge(f))
+        || found.windows(2).any(|pair| touch(&pair[0], &pair[1]))
+}
+
+/// Decides what all crossings along a line are; `outward` is -1 if normals point into the solid.
+///
+/// What may be beyond an edge is a candidate like the unproven ones, and counts as proven again if it
+/// fits. If it does not help, as on a surface that crosses itself, all stays; returns whether it helped.
+pub(super) fn decide(
+    found: &mut Vec<Found>,
+    outward: i8,
+    is_on_edge: impl Fn(&Found) -> bool,
+    room: impl Fn(&Found) -> f64,
+) -> bool {
+    let all = found.clone();
+    for f in found.iter_mut().filter(|f| is_on_edge(f)) {
+        (f.sign, f.alone) = (0, [0.0; 2]);
+    }
+    join_unproven(found, room);
+    in_turn(found, outward);
+    if !alternate(found, outward) {
+        *found = all;
+        return false;
+    }
+    for f in found.iter_mut().filter(|f| f.is_zero) {
+        f.sign = f.turn;
+    }
+    true
+}
+
+/// Sorts along the line, and joins unproven candidates that may be at the same place: those nearer to
+/// one another than their errors and their own `room`. If their directions differ, the joined one has
+/// none.
+pub(super) fn join_unproven(found: &mut Vec<Found>, room: impl Fn(&Found) -> f64) {
+    found.sort_by(|a, b| a.s.total_cmp(&b.s));
+    let mut i = 0;
+    while i < found.len() {
+        let mut turns = [found[i].turn < 0, found[i].turn > 0];
+        while let Some(&b) = found.get(i + 1) {
+            let a = found[i];
+            if a.sign != 0 || b.sign != 0 || b.s - a.s > a.s_err + b.s_err + room(&a) + room(&b) {
+                break;
+            }
+            turns = [turns[0] || b.turn < 0, turns[1] || b.turn > 0];
+            let turn = i8::from(turns[1]) - i8::from(turns[0]);
+            found[i] = Found { turn, ..a.joined(&b) };
+            found.remove(i + 1);
+        }
+        i += 1;
+    }
+}
+
+/// Exchanges neighbours along a whole line whose brackets overlap and which enter and leave a closed
+/// surface in the wrong order.
+pub(super) fn in_turn(found: &mut [Found], outward: i8) {
+    let mut inside = false;
+    for i in 0..found.len() {
+        let enters = |f: &Found| f.turn * outward < 0;
+        if let Some(next) = found.get(i + 1).copied()
+            && [found[i], next].iter().all(|f| f.turn != 0)
+            && touch(&found[i], &next)
+            && enters(&found[i]) == inside
+            && enters(&next) != inside
+        {
+            found.swap(i, i + 1);
+        }
+        // An unproven candidate counts if it fits.
+        if found[i].turn != 0 && (found[i].sign != 0 || enters(&found[i]) != inside) {
+            inside = enters(&found[i]);
+        }
+    }
+}
+
+/// A crossing on a way through all of them, as a sign, and the side from which the line comes.
+#[derive(Clone, Copy)]
+struct Step {
+    sign: i8,
+    from_inside: bool,
+}
+
+/// Decides the directions of unproven candidates, which are sorted along a whole line: both ends of
+/// the line are outside. Returns whether all crossings alternate then.
+///
+/// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
+/// it within the rounding; its direction is that in which the line crosses these faces. Of all choices
+/// that alternate, this takes one with the fewest changes: a candidate loses its direction (the line
+/// passes the vertex), or, at a higher price, has another one. Proven crossings stay as they are.
+pub(super) fn alternate(found: &mut [Found], outward: i8) -> bool {
+    // The least cost to be outside, and inside, and the last step on the way there.
+    let mut costs = [0, CONTRADICTION << 20];
+    let mut steps: Vec<[Step; 2]> = Vec::with_capacity(found.len());
+    for crossing in &*found {
+        let turn = crossing.turn * outward;
+        let mut next = [u64::MAX; 2];
+        let mut step = [Step { sign: 0, from_inside: false }; 2];
+        for (from_inside, cost) in [(false, costs[0]), (true, costs[1])] {
+            let mut reach = |sign: i8, price: u64| {
+                let inside = if sign == 0 { from_inside } else { sign < 0 };
+                if cost + price < next[usize::from(inside)] {
+                    next[usize::from(inside)] = cost + price;
+                    step[usize::from(inside)] = Step { sign, from_inside };
+                }
+            };
+            let across = if from_inside { 1 } else { -1 };
+            if crossing.sign != 0 {
+                reach(turn, if turn == across { 0 } else { CONTRADICTION });
+            } else {
+                reach(0, u64::from(turn != 0));
+                reach(across, if turn == across { 0 } else { 2 });
+            }
+        }
+        // A proven crossing ends on one side only.
+        costs = next.map(|cost| cost.min(CONTRADICTION << 20));
+        steps.push(step);
+    }
+    let mut inside = false;
+    for (crossing, step) in found.iter_mut().zip(&steps).rev() {
+        let Step { sign, from_inside } = step[usize::from(inside)];
+        if crossing.sign == 0 {
+            crossing.turn = sign * outward;
+        }
+        inside = from_inside;
+    }
+    costs[0] < CONTRADICTION
+}
