@@ -591,6 +591,7 @@ def knots_of(rng, count, degree):
     else:
         values = sorted(F(rng.uniform(0.125, 7)) for _ in range(inner))
     last = (values[-1] if values else 0) + rng.choice((1, 2))
+    last = F(float(last))
     start = F(0)
     return [start] * (degree + 1) + values + [last] * (degree + 1)
 
