@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Event, Loops, add, cross, dot, small, sub, times
+from nets import Place
 from patches import Patch
 from solids import Region
 from zero_sets import ZeroSet
@@ -448,7 +449,8 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 left = [pair for pair in left if pair not in more]
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
-        beyond = lambda e: not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
+        straddled = lambda e: isinstance(e.t, Place) and any(e.t.l < end < e.t.r for end in ray[6:])
+        beyond = lambda e: straddled(e) or not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
         if not all(e.optional or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left

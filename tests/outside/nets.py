@@ -290,7 +290,7 @@ class Net(Patch):
 
     def search(self, ray, room=64, end=None):
         """Zeros (piece, u, v, None) and squares that are left (piece, u, v, square)."""
-        found, count = [], 0
+        found, count, self.gave_up = [], 0, False
         for piece in self.pieces:
             f, g = piece.functions(ray)
             todo = [Square(-BEYOND, -BEYOND, 1 + 2 * BEYOND, 1 + 2 * BEYOND, f, g)]
@@ -299,7 +299,7 @@ class Net(Patch):
                 square = todo.pop()
                 count += 1
                 if count > MOST:
-                    self.within = True
+                    self.within = self.gave_up = True
                     return found
                 if self.skips(piece, square):
                     continue
@@ -381,7 +381,7 @@ class Net(Patch):
                     self.within = True
                     continue
                 wide = F(top([F(x, ray[2]) for x in ray[0]]) + self.size) / top(d) / (1 << 66)
-                raw.append([min(ts) - wide, max(ts) + wide, [], True, 0, self.parameters(piece, u, v)])
+                raw.append([min(ts) - wide, max(ts) + wide, [], True, 0, self.parameters(piece, u, v), False])
                 continue
             t = self.depth(piece, ray, rounded(u, 300), rounded(v, 300))
             if t is None:
@@ -390,7 +390,7 @@ class Net(Patch):
             tangents, su, sv = self.tangents(piece, u, v)
             place = self.parameters(piece, u, v)
             if tangents is None:
-                raw.append([t, t, [], True, 0, place])
+                raw.append([t, t, [], True, 0, place, False])
                 continue
             # How far the ray's own rounding moves the place along the surface: more where it grazes.
             n = tangents.normal
@@ -401,14 +401,15 @@ class Net(Patch):
             if apart < -off:
                 continue
             # Beyond an inner border another piece is met, but for rounding.
+            scales = [top(s) * (p[1] - p[0]) / (b - a) for s, p, (a, b) in zip((su, sv), (piece.u, piece.v), self.domain)]
+            to_inner = min((x * scales[k // 2] for k, x in enumerate((u, 1 - u, v, 1 - v)) if not piece.ends[k]), default=2 * off)
             if any(outside(x, tiny) and not end for x, end in zip((u, 1 - u, v, 1 - v), piece.ends)):
-                scales = [top(s) * (p[1] - p[0]) / (b - a) for s, p, (a, b) in zip((su, sv), (piece.u, piece.v), self.domain)]
-                if max(-u * scales[0], (u - 1) * scales[0], -v * scales[1], (v - 1) * scales[1]) < off:
-                    self.beside.append(t)
+                if to_inner > -off:
+                    self.beside.append((t, tangents, sign(dot(n, d))))
                 continue
             # Next to an edge that is one point there is no normal.
             tip = area * (1 << 20) < self.size * max(top(su), top(sv))
-            raw.append([t, t, [] if tip else [tangents], tip or apart < off, sign(dot(n, d)), place])
+            raw.append([t, t, [] if tip else [tangents], tip or apart < off, sign(dot(n, d)), place, to_inner < off])
         out = self.joined(raw, ray)
         self.last = (ray, out, self.within, self.beside)
         return out
@@ -449,18 +450,32 @@ class Net(Patch):
                 continue
             same[0], same[1] = min(same[0], r[0]), max(same[1], r[1])
             same[3] |= r[3]
+            same[6] |= r[6]
             if same[4] != r[4]:
                 # A crease that is touched, or what is left of a tangent.
                 same[3], same[4] = True, 0
             same[2] += r[2]
+        # Along a line of the surface.
+        self.within |= any((o[1] - o[0]) * (1 << 20) > scale for o in out)
         eps = scale / (1 << 230)
-        return [(Place(a - eps, b + eps), n, border, turn) for a, b, n, border, turn, _ in out]
+        # Across a crease, where a ray passes it within rounding, the pieces may not agree which of them is met; on smooth borders they find the same.
+        alike = lambda t, turn, beside: turn == beside[2] and abs(t - beside[0]) * (1 << 36) <= scale
+        alone = [b for b in self.beside if not any(alike(o[0], o[4], b) for o in out)]
+        for o in out:
+            same = [b[0] for b in self.beside if alike(o[0], o[4], b)]
+            if same:
+                # Of the crossing on either side.
+                o[0], o[1] = min(o[0], *same), max(o[1], *same)
+            elif o[6]:
+                o[3] = True
+        out += [[t, t, [tangents], True, turn, None, True] for t, tangents, turn in alone]
+        return [(Place(a - eps, b + eps), n, border, turn) for a, b, n, border, turn, _, _ in out]
 
     def answer(self, o, d, m):
         ray = m.ray(o, d)
         self.within = False
         found = sorted(self.meetings(ray), key=cmp_to_key(lambda a, b: a[0].cmp(b[0])))
-        self.met = [(t, n) for t, normals, _, _ in found for n in normals or [None]]
+        self.met = [(t, n) for t, normals, _, _ in found for n in normals or [None]] + [(Place(t, t), n) for t, n, _ in self.beside]
         d = tuple(F(x, ray[2]) for x in ray[1])
         flip = -1 if self.inverse else 1
         events = []
@@ -479,13 +494,14 @@ class Net(Patch):
         beside = lambda t: t.against(lo - 2 * wide) >= 0 >= t.against(hi + 2 * wide)
         if any(beside(t) and (not normals or any(is_flat(n, d, 18) for n in normals)) for t, normals, _, _ in self.meetings(ray)):
             return True
-        return any(lo - 2 * wide <= t <= hi + 2 * wide for t in self.low_places(ray))
+        # What is met in so many places that they were not all looked at is a tangent of a high order.
+        return any(lo - 2 * wide <= t <= hi + 2 * wide for t in self.low_places(ray)) or self.gave_up
 
     def passes_an_edge(self, ray, lo, hi):
         lo, hi = F(lo), F(hi)
         found = self.meetings(ray)
         wide = 2 * (hi - lo)
-        near_crease = any(lo - wide <= t <= hi + wide for t in self.beside)
+        near_crease = any(lo - wide <= t <= hi + wide for t, _, _ in self.beside)
         return near_crease or any((border or len(normals) > 1) and t.against(lo) >= 0 >= t.against(hi) for t, normals, border, _ in found)
 
     def low_places(self, ray):
@@ -611,8 +627,8 @@ def loops_of(rng, domain):
     if outer:
         ring = [(1, 1), (15, 1), (15, 15), (1, 15)]
         if rng.random() < 0.5:
-            ring = [(0, 0), (16, 0), (16, 16), (0, 16)] if rng.random() < 0.3 else [(a + rng.choice((0, 1, F(rng.random()))), b + rng.choice((0, -1, 1, F(rng.random()))) * (0 < b)) for a, b in [(1, 1), (14, 1), (14, 14), (8, 13), (1, 14)]]
-            ring = [(a, min(b, F(31, 2))) for a, b in ring]
+            ring = [(0, 0), (16, 0), (16, 16), (0, 16)] if rng.random() < 0.3 else [(a + rng.choice((0, 1, F(rng.random()))), b + rng.choice((0, -1, 1, F(rng.random()))) * (0 < b)) for a, b in [(1, 1), (14, 1), (14, 14), (8, 14), (1, 14)]]
+            ring = [(a, b if b < 13 else max(b, F(27, 2))) for a, b in ring]
         loops.append([place(*p) for p in ring])
     for a, b in rng.sample([(3, 3), (8, 3), (3, 8), (8, 8)], rng.randint(0 if outer else 1, 3)):
         corners = [(a, b), (a, b + 4), (a + 4, b + 4), (a + 4, b)]
