@@ -90,14 +90,15 @@ def aims(rng, name, count):
 
 
 def once(hits):
-    """Patches of their own share their edges, and a ray through an edge meets both: of hits with overlapping brackets the first stays."""
+    """Patches of their own share their edges, and a ray through an edge meets both: of hits from the same side with overlapping brackets the first stays."""
     offsets, kept = [0], []
     for first, last in zip(hits["offsets"][:-1], hits["offsets"][1:]):
-        before = -np.inf
+        before = {}
         for k in range(int(first), int(last)):
-            if hits["t_lo"][k] > before:
+            side = int(hits["sign"][k]), int(hits["kind"][k])
+            if hits["t_lo"][k] > before.get(side, -np.inf):
                 kept.append(k)
-            before = max(before, hits["t_hi"][k])
+            before[side] = max(before.get(side, -np.inf), hits["t_hi"][k])
         offsets.append(len(kept))
     return {"offsets": np.array(offsets), **{k: hits[k][kept] for k in ("t_lo", "t_hi", "kind")}}
 

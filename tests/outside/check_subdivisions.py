@@ -482,31 +482,39 @@ def inside_of(name, rng, count):
     return np.array([0.0, -0.333, 0.0]) + vec * [0.9, 0.02, 0.02] if "genus" in name else vec * 0.12
 
 
-def check_inside(durer, seed, count, only):
-    """Rays from inside: none escapes, and leaving and entering alternate."""
+def check_in_turn(durer, seed, count, only, outside):
+    """Rays from inside, or lines from outside, half of them through limits of vertices and edges, of the latter most beside the plane there: leaving and entering alternate, and all ends are outside."""
     rng = random.Random(seed)
     wrong, total = 0, 0
     for name, *data in examples(rng):
         if "sheet" in name or only and only not in name:
             continue
         mesh = control_mesh(*data)
-        aims = np.array([p for p, _ in targets(mesh, rng, 200)])
+        aims, normals = map(np.array, zip(*targets(mesh, rng, 200)))
         o = inside_of(name, rng, count)
         draw = np.random.default_rng(seed)
-        at_limits = aims[draw.integers(len(aims), size=count)] - o
-        d = np.where((np.arange(count) % 2 == 0)[:, None], at_limits, draw.uniform(-1, 1, (count, 3)))
+        which = draw.integers(len(aims), size=count)
+        if outside:
+            plane = np.cross(normals[which], draw.uniform(-1, 1, (count, 3)))
+            tilt = draw.choice([-1, 0, 1], (count, 1)) * 2.0 ** draw.uniform(-50, 1, (count, 1))
+            d = np.where((np.arange(count) % 4 == 0)[:, None], draw.uniform(-1, 1, (count, 3)), plane + normals[which] * tilt)
+            d /= np.linalg.norm(d, axis=1, keepdims=True)
+            o = aims[which] - d * draw.uniform(4, 6, (count, 1))
+        else:
+            d = np.where((np.arange(count) % 2 == 0)[:, None], aims[which] - o, draw.uniform(-1, 1, (count, 3)))
         hits = all_crossings(durer, scene_text(*data), np.hstack([o, d]))
         offsets, sign, kind = (hits[key].astype(np.int64) for key in ("offsets", "sign", "kind"))
-        # The sums of signs so far: 1 after leaving, 0 after entering; at the end 1.
+        # The sums of signs so far, beginning with what the origin is: 1 outside, 0 inside.
         own = np.repeat(np.arange(count), np.diff(offsets))
         sums = np.cumsum(sign)
         before = np.concatenate([[0], sums])[offsets[:-1]]
-        inside = sums - before[own]
-        bad_rays = set(own[(inside < 0) | (inside > 1)]) | set(np.flatnonzero(np.concatenate([[0], sums])[offsets[1:]] - before != 1))
+        start = 1 if outside else 0
+        out = start + sums - before[own]
+        bad_rays = set(own[(out < 0) | (out > 1)]) | set(np.flatnonzero(start + np.concatenate([[0], sums])[offsets[1:]] - before != 1))
         bad = len(bad_rays)
         wrong += bad
         total += count
-        print(f"{name}: {count} rays from inside, {bad} that do not leave in turn, {np.sum(kind != 0)} crossings that are not proven", flush=True)
+        print(f"{name}: {count} rays from {'outside' if outside else 'inside'}, {len(sign)} crossings, {bad} rays that do not leave in turn, {np.sum(kind != 0)} crossings that are not proven", flush=True)
         for i in sorted(bad_rays)[:2]:
             print("  ", o[i].tolist(), d[i].tolist(), sign[offsets[i] : offsets[i + 1]])
     print(f"{total} rays, {wrong} violations")
@@ -521,9 +529,10 @@ def main():
     parser.add_argument("--only", help="only meshes with this in their name")
     parser.add_argument("--show", type=int, default=3)
     parser.add_argument("--inside", type=int, help="so many rays from inside each closed mesh, and nothing else")
+    parser.add_argument("--outside", type=int, help="so many lines from outside past edges of each closed mesh, and nothing else")
     args = parser.parse_args()
-    if args.inside:
-        return check_inside(args.durer, args.seed, args.inside, args.only)
+    if args.inside or args.outside:
+        return check_in_turn(args.durer, args.seed, args.inside or args.outside, args.only, not args.inside)
     return check(args.durer, args.seed, args.rays, args.only, args.show)
 
 
