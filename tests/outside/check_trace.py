@@ -304,7 +304,8 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
         about = sum(abs(to_float(m)) for m in leaf.whole.rows[i]) * back + abs(to_float(leaf.whole.c[i]))
         # Zero sets and what is put together from them are resolved on the surface itself, in its own frame, so that what the bracket leaves open goes all ways there.
         moved = max(speed * sum(abs(to_float(m)) for m in leaf.whole.rows[i]), abs(ray[3 + i])) if isinstance(leaf, (Region, ZeroSet)) else abs(ray[3 + i])
-        allowed = 4 * float(hi - lo) * moved + 1024 * U * about
+        open_ = float(event.t.r - event.t.l) if isinstance(event.t, Place) else 0
+        allowed = (4 * float(hi - lo) + open_) * moved + 1024 * U * about
         if not abs(to_float(F(float(hit["position"][i])) - p)) <= allowed:
             bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}, not {float(hit['position'][i])!r}")
             break

@@ -689,7 +689,25 @@ def aims_of(rng, leaf, specials=()):
 AXES = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 0)]
 
 
+def has_area(leaf):
+    return all(any(leaf.normal_at(piece, *at_)[0]) for piece in leaf.pieces for at_ in ((F(1, 3), F(2, 7)), (F(3, 5), F(2, 9))))
+
+
 def nurbs(rng):
+    leaf = any_nurbs(rng)
+    while not has_area(leaf):
+        leaf = any_nurbs(rng)
+    return leaf
+
+
+def curved_patch(rng):
+    leaf = any_patch(rng)
+    while not has_area(leaf):
+        leaf = any_patch(rng)
+    return leaf
+
+
+def any_nurbs(rng):
     wild, weighted = rng.random() < 0.3, rng.random() < 0.6
     scale = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
     style = rng.choice(("plain", "plain", "trimmed", "trimmed", "turned", "periodic"))
@@ -742,7 +760,7 @@ def nurbs(rng):
     return leaf
 
 
-def curved_patch(rng):
+def any_patch(rng):
     """Rational Bezier patches, uniform B-splines, triangles."""
     wild, weighted = rng.random() < 0.3, rng.random() < 0.6
     scale = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
