@@ -90,16 +90,17 @@ def aims(rng, name, count):
 
 
 def once(hits):
-    """Patches of their own share their edges, and a ray through an edge meets both: of hits with overlapping brackets the first stays."""
+    """Patches of their own share their edges, and a ray through an edge meets both: of hits from the same side with overlapping brackets the first stays."""
     offsets, kept = [0], []
     for first, last in zip(hits["offsets"][:-1], hits["offsets"][1:]):
-        before = -np.inf
+        before = {}
         for k in range(int(first), int(last)):
-            if hits["t_lo"][k] > before:
+            side = int(hits["sign"][k]), int(hits["kind"][k])
+            if hits["t_lo"][k] > before.get(side, -np.inf):
                 kept.append(k)
-            before = max(before, hits["t_hi"][k])
+            before[side] = max(before.get(side, -np.inf), hits["t_hi"][k])
         offsets.append(len(kept))
-    return {"offsets": np.array(offsets), **{k: hits[k][kept] for k in ("t_lo", "t_hi", "kind")}}
+    return {"offsets": np.array(offsets), **{k: hits[k][kept] for k in ("t_lo", "t_hi", "sign", "kind")}}
 
 
 def main():
@@ -123,6 +124,9 @@ def main():
         one = answers[first]
         for form, other in list(answers.items())[1:]:
             wrong = uncertain = crossings = 0
+            # Which way a sheet faces is its own; it has to be one way everywhere. The first crossings are what most of all rays say.
+            starts = lambda x: np.where(np.diff(x["offsets"].astype(np.int64)) > 0, np.append(x["sign"], 0).astype(int)[np.minimum(x["offsets"][:-1].astype(np.int64), len(x["sign"]))], 0)
+            way = np.sign((starts(one) * starts(other)).sum())
             for k in range(args.rays):
                 a, b = (slice(int(x["offsets"][k]), int(x["offsets"][k + 1])) for x in (one, other))
                 crossings += b.stop - b.start
@@ -133,10 +137,12 @@ def main():
                     bad = True
                 else:
                     bad = (np.maximum(one["t_lo"][a], other["t_lo"][b]) > np.minimum(one["t_hi"][a], other["t_hi"][b])).any()
+                    proven = (one["kind"][a] == 0) & (other["kind"][b] == 0)
+                    bad |= (proven & (one["sign"][a] != way * other["sign"][b])).any()
                 if bad:
                     wrong += 1
                     if wrong <= 3:
-                        print("   ", " ".join(map(repr, map(float, rays[k]))), one["t_lo"][a], other["t_lo"][b])
+                        print("   ", " ".join(map(repr, map(float, rays[k]))), one["t_lo"][a], other["t_lo"][b], one["sign"][a], other["sign"][b])
             print(f"{name}: {form} beside {first}: {args.rays} rays, {crossings} crossings, {uncertain} rays differ by a tangent, {wrong} violations")
             violations += wrong
     print(f"{violations} violations")

@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 from exact import to_float, union
 from shapes import IDENTITY, Event, Loops, add, cross, dot, small, sub, times
+from nets import Place
 from patches import Patch
 from solids import Region
 from zero_sets import ZeroSet
@@ -303,7 +304,8 @@ def check_hit(report, scene, ray, event, leaf, hit, widths):
         about = sum(abs(to_float(m)) for m in leaf.whole.rows[i]) * back + abs(to_float(leaf.whole.c[i]))
         # Zero sets and what is put together from them are resolved on the surface itself, in its own frame, so that what the bracket leaves open goes all ways there.
         moved = max(speed * sum(abs(to_float(m)) for m in leaf.whole.rows[i]), abs(ray[3 + i])) if isinstance(leaf, (Region, ZeroSet)) else abs(ray[3 + i])
-        allowed = 4 * float(hi - lo) * moved + 1024 * U * about
+        open_ = float(event.t.r - event.t.l) if isinstance(event.t, Place) else 0
+        allowed = (4 * float(hi - lo) + open_) * moved + 1024 * U * about
         if not abs(to_float(F(float(hit["position"][i])) - p)) <= allowed:
             bad("wrong position", f"{event} position[{i}] = {to_float(p)!r}, not {float(hit['position'][i])!r}")
             break
@@ -448,7 +450,8 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 left = [pair for pair in left if pair not in more]
         left = [e for e, _ in left if e.t.cmp(max(ray[6], -LARGEST)) >= 0 and e.t.cmp(min(ray[7], LARGEST)) <= 0]
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
-        beyond = lambda e: not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
+        straddled = lambda e: isinstance(e.t, Place) and any(e.t.l < end < e.t.r for end in ray[6:])
+        beyond = lambda e: straddled(e) or not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
         if not all(e.optional or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left

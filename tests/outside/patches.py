@@ -236,6 +236,11 @@ class Graph(Patch):
                 out.append((t, Tangents(normal, bend), 0 in signs, (t.after > 0) - (t.after < 0) if t.before != t.after else 0))
         return out
 
+    def is_tangent(self, ray, lo, hi):
+        """Also where it is flat and the line as good as in it."""
+        poly = self.along(ray)[2]
+        return all(abs(at(poly, F(t))) * (1 << 40) <= self.size for t in (lo, hi)) or super().is_tangent(ray, lo, hi)
+
     def low_places(self, ray):
         return [t.rational(100) for t in real_roots(whole(slope(self.along(ray)[2]))) or []]
 

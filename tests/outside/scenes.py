@@ -9,6 +9,7 @@ from shapes import (
 )
 from fields import Copies, height_field, ifs, terrain_sheet
 from lathes import lathe
+from nets import curved_patch, nurbs
 from patches import bilinear, patch
 from prisms import curved_prism, prism, straight_sweep
 from rounded import blob, isosurface, julia, superellipsoid
@@ -504,7 +505,7 @@ MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
     "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe, "sphere sweep": sphere_sweep,
     "height field": height_field, "terrain": terrain_sheet, "ifs": ifs,
-    "bilinear": bilinear, "patch": patch, "sweep": straight_sweep,
+    "bilinear": bilinear, "patch": patch, "nurbs": nurbs, "curved patch": curved_patch, "sweep": straight_sweep,
 }
 
 

@@ -354,6 +354,78 @@ def casteljau(body, u, v):
     return along([along(row, u) for row in rows], v)
 
 
+def numbers_after(body, word, count=None):
+    """The numbers behind a word of the text, of which the first may be their count."""
+    found = re.search(rf"{word} ([-0-9.e+, <>]+)", body)
+    return [F(float(x)) for x in re.findall(r"[-+0-9.e]+", found[1])] if found else None
+
+
+def basis(knots, i, d, x):
+    """A B-spline by its recursion (C. de Boor, 1972; M. Cox, 1972)."""
+    if d == 0:
+        return F(knots[i] <= x < knots[i + 1])
+    total = F(0)
+    if knots[i + d] > knots[i]:
+        total += (x - knots[i]) / (knots[i + d] - knots[i]) * basis(knots, i, d - 1, x)
+    if knots[i + d + 1] > knots[i + 1]:
+        total += (knots[i + d + 1] - x) / (knots[i + d + 1] - knots[i + 1]) * basis(knots, i + 1, d - 1, x)
+    return total
+
+
+class SplineText:
+    """A NURBS surface as its text says it: points, knots and trims."""
+
+    def __init__(self, body):
+        body = body.replace("{", " ").replace("}", " ")
+        self.degrees = [int(x) for x in numbers_after(body, "degree")]
+        x = numbers_after(body, "points")
+        self.counts = [int(a) for a in x[:2]]
+        per = (len(x) - 2) // (self.counts[0] * self.counts[1])
+        points = [x[2 + k * per : 2 + (k + 1) * per] for k in range(self.counts[0] * self.counts[1])]
+        self.points = [(*p[:3], p[3] if per == 4 else F(1)) for p in points]
+        self.knots = [numbers_after(body, f"{name}_knots")[1:] for name in "uv"]
+        around = re.search("periodic ([uv])", body)
+        self.around = [around is not None and around[1] == name for name in "uv"]
+        self.loops = []
+        for words in body.split("trim ")[1:]:
+            x = numbers_after(words, "linear_spline")
+            self.loops.append([tuple(x[1 + 2 * k : 3 + 2 * k]) for k in range(int(x[0]))])
+
+    def domain(self):
+        return [(k[0], k[-1]) for k in self.knots]
+
+    def weights(self, along, x):
+        knots, n, d = self.knots[along], self.counts[along], self.degrees[along]
+        if not self.around[along]:
+            return [basis(knots, i, d, x) for i in range(n)]
+        period = knots[-1] - knots[0]
+        knots = [k + turn * period for turn in range(d + 3) for k in knots[:-1]]
+        out = [F(0)] * n
+        for i in range(n * (d + 1)):
+            for turn in range(d + 2):
+                out[i % n] += basis(knots, i, d, x + turn * period) if i // n == 0 else 0
+        return out
+
+    def at(self, u, v):
+        a, b = self.weights(0, u), self.weights(1, v)
+        total = [F(0)] * 4
+        for j, y in enumerate(b):
+            for i, x in enumerate(a):
+                *p, w = self.points[j * self.counts[0] + i]
+                for k, c in enumerate((*p, F(1))):
+                    total[k] += x * y * w * c
+        return tuple(c / total[3] for c in total[:3])
+
+    def keeps(self, u, v):
+        """By the angles of the loops around the place; loops that go round it once more to the left than to the right, or as often as the outermost want."""
+        turns = 0
+        for loop in self.loops:
+            angles = [math.atan2(float(q - v), float(p - u)) for p, q in loop]
+            turns += round(sum((b - a + math.pi) % (2 * math.pi) - math.pi for a, b in zip(angles, angles[1:] + angles[:1])) / (2 * math.pi))
+        area = sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(self.loops[0], self.loops[0][1:] + self.loops[0][:1])) if self.loops else 0
+        return turns == (1 if area > 0 else 0)
+
+
 def holds_sweep(body, p):
     """Whether a straight sweep holds a point: its profile, turned from z onto the path by one rotation, holds the point's place."""
     profile, path = body.split("path")
@@ -604,6 +676,45 @@ class Oracle(unittest.TestCase):
                         found += 1
                         self.assertTrue(any(e.t.cmp(1.0) == 0 for e in answer.events), (leaf.body, u, v))
             self.assertGreater(found, 20, kind)
+
+    def test_nets_are_met_where_their_points_are(self):
+        """NURBS by the recursion of their basis and by angles around their trims; rational and triangular patches by means of means, where they have no weights."""
+        for kind in ("nurbs", "curved patch"):
+            found = left_out = 0
+            for i in range(60):
+                rng = random.Random(f"net/{kind}/{i}")
+                leaf = scenes.MAKERS[kind](rng)
+                leaf.whole = leaf.map
+                spline = SplineText(leaf.body) if kind == "nurbs" else None
+                if spline is None and ("b_spline" in leaf.body or re.search(r"<[^,>]*,[^,>]*,[^,>]*,", leaf.body)):
+                    continue
+                for _ in range(4):
+                    s, t = F(rng.randint(1, 63), 64), F(rng.randint(1, 63), 64)
+                    kept = True
+                    if spline:
+                        (a, b), (c, d) = spline.domain()
+                        s, t = a + s * (b - a), c + t * (d - c)
+                        p, kept = spline.at(s, t), spline.keeps(s, t)
+                    else:
+                        p = casteljau(leaf.body, s, t)
+                    if p is None:
+                        continue
+                    d = tuple(leaf.size * F(rng.randint(-9, 9), 4) for _ in range(3))
+                    if not any(d):
+                        continue
+                    o = tuple(float(a - b) for a, b in zip(p, d))
+                    answer = leaf.answer(o, tuple(map(float, d)), leaf.whole)
+                    if answer.within:
+                        continue
+                    near = [e for e in answer.events if abs(e.t.rational() - 1) < F(1, 1 << 20)]
+                    if kept:
+                        found += 1
+                        self.assertTrue(near, (leaf.body, s, t, d))
+                    elif all(not e.optional for e in near):
+                        left_out += 1
+                        self.assertFalse(near, (leaf.body, s, t, d))
+            self.assertGreater(found, 60, kind)
+            self.assertGreater(left_out, 5 if kind == "nurbs" else -1)
 
     def test_straight_sweeps_hold_what_their_profiles_hold(self):
         told = {True: 0, False: 0}
