@@ -68,8 +68,8 @@ fn divide(boxes: &[Aabb], which: &mut [u32]) -> usize {
     let key = |i: u32, axis: usize| twice_middle(&boxes[i as usize])[axis];
     let n = which.len();
     if n > SORTED {
-        let (mut low, mut high) = (twice_middle(&boxes[which[0] as usize]), Vec3::ZERO);
-        high = high + low;
+        let first = twice_middle(&boxes[which[0] as usize]);
+        let (mut low, mut high) = (first, first);
         for &i in which.iter() {
             for axis in 0..3 {
                 (low[axis], high[axis]) = (low[axis].min(key(i, axis)), high[axis].max(key(i, axis)));
