@@ -14,7 +14,7 @@ use core::ops::AddAssign;
 /// let corners = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [-1.0, 2.0, 0.0], [1.0, 2.0, 1.0]];
 /// let patch = BezierPatch::new([2, 2], &corners.map(Point3::from))?;
 /// Steps::take();
-/// patch.roots(&LocalRay::new(&Ray::new(Point3::new(0.5, 1.0, -3.0), Vec3::Z)), &mut Closest::default());
+/// patch.roots(&LocalRay::new(&Ray::new(Point3::new(0.3, 0.8, -3.0), Vec3::Z)), &mut Closest::default());
 /// let steps = Steps::take();
 /// assert_eq!((steps.rays, steps.proven, steps.unproven), (1, 1, 0));
 /// assert_eq!(Steps::take(), Steps::default());
