@@ -5,12 +5,10 @@
 //! their boxes have the least sum (J. Goldsmith, J. Salmon, "Automatic creation of object hierarchies
 //! for ray tracing", *IEEE Computer Graphics and Applications* 7:5 (1987) 14-20).
 
-use crate::blob::Along;
+use crate::blob::{Along, MARGIN};
 use durer_math::lanes::{LANES, set_bits};
 use durer_math::{Aabb, F8, Vec3};
 
-/// The enlargement of boxes, in units.
-pub(crate) const MARGIN: f64 = durer_math::scale::pow2(-20);
 /// Larger groups of boxes are divided at the median along their longest side.
 const SORTED: usize = 1 << 12;
 /// In a child: the rest is the number of a box, not of a node.
@@ -49,10 +47,6 @@ impl Open {
     }
 }
 
-fn around(boxes: &[Aabb], which: &[u32]) -> Aabb {
-    which.iter().fold(Aabb::EMPTY, |all, &i| all.union(boxes[i as usize]))
-}
-
 fn area(b: &Aabb) -> f64 {
     let d = b.max - b.min;
     d.x * d.y + d.y * d.z + d.z * d.x
@@ -63,7 +57,8 @@ fn twice_middle(b: &Aabb) -> Vec3 {
     b.min.to_vec() + b.max.to_vec()
 }
 
-/// Orders boxes so that the first ones, as many as it returns, and the others are two groups.
+/// Orders boxes so that the first ones, as many as it returns, and the others are two groups. Two or
+/// more boxes are needed.
 fn divide(boxes: &[Aabb], which: &mut [u32]) -> usize {
     let key = |i: u32, axis: usize| twice_middle(&boxes[i as usize])[axis];
     let n = which.len();
@@ -104,6 +99,23 @@ fn divide(boxes: &[Aabb], which: &mut [u32]) -> usize {
     best.1
 }
 
+/// Boxes that become one lane of a node.
+struct Group {
+    range: (usize, usize),
+    held: Aabb,
+    /// In proportion to the lines that meet it, times its boxes; -1 for a single box.
+    work: f64,
+}
+
+impl Group {
+    fn of(boxes: &[Aabb], order: &[u32], range: (usize, usize)) -> Self {
+        let (from, to) = range;
+        let held = order[from..to].iter().fold(Aabb::EMPTY, |all, &i| all.union(boxes[i as usize]));
+        let work = if to - from < 2 { -1.0 } else { area(&held) * (to - from) as f64 };
+        Self { range, held, work }
+    }
+}
+
 impl BoxTree {
     /// Builds the tree from boxes in units. Returns the tree and its order of the boxes.
     pub(crate) fn new(boxes: &[Aabb]) -> (Self, Vec<u32>) {
@@ -115,30 +127,26 @@ impl BoxTree {
         tree.nodes.push(Node::default());
         let mut open = vec![(0_usize, 0_usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
-            let mut groups = vec![(from, to)];
+            let mut groups = vec![Group::of(boxes, &order, (from, to))];
             while groups.len() < LANES {
-                // The group whose lines are the most work.
-                let work = |&(a, b): &(usize, usize)| {
-                    if b - a < 2 { -1.0 } else { area(&around(boxes, &order[a..b])) * (b - a) as f64 }
-                };
                 let most = (0..groups.len())
-                    .fold(0, |most, k| if work(&groups[k]) > work(&groups[most]) { k } else { most });
-                let (a, b) = groups[most];
+                    .fold(0, |most, k| if groups[k].work > groups[most].work { k } else { most });
+                let (a, b) = groups[most].range;
                 if b - a < 2 {
                     break;
                 }
                 let middle = a + divide(boxes, &mut order[a..b]);
-                groups[most] = (a, middle);
-                groups.push((middle, b));
+                groups[most] = Group::of(boxes, &order, (a, middle));
+                groups.push(Group::of(boxes, &order, (middle, b)));
             }
-            for (lane, (a, b)) in groups.into_iter().enumerate() {
+            for (lane, Group { range: (a, b), held, .. }) in groups.into_iter().enumerate() {
                 let mut child = a as u32 | IS_BOX;
                 if b - a > 1 {
                     child = tree.nodes.len() as u32;
                     tree.nodes.push(Node::default());
                     open.push((child as usize, a, b));
                 }
-                tree.nodes[node].set(lane, &around(boxes, &order[a..b]), child);
+                tree.nodes[node].set(lane, &held, child);
             }
         }
         (tree, order)

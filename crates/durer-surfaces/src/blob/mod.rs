@@ -39,7 +39,7 @@ use crate::{
 };
 use durer_roots::quadratic::Quadratic;
 pub(crate) use march::Along;
-pub(crate) use tree::{Inner, Tree};
+pub(crate) use tree::{Inner, MARGIN, Tree};
 
 use component::Component;
 use durer_math::eft::{exponent, scale2};

@@ -10,7 +10,7 @@ use durer_math::{Aabb, Vec3};
 /// The number of components in a leaf.
 const LEAF: usize = 4;
 /// The enlargement of boxes, in units.
-const MARGIN: f64 = durer_math::scale::pow2(-20);
+pub(crate) const MARGIN: f64 = durer_math::scale::pow2(-20);
 
 /// A box and its content.
 #[derive(Clone, Debug)]

@@ -34,13 +34,13 @@ impl Ahead {
     #[inline(always)]
     pub(super) fn note(&mut self, new: &[Found]) {
         if self.is_open {
-            // Brackets of proven crossings are far less than half as wide as the room.
             self.due = new.iter().fold(self.due, |due, f| due.min(f.s + f.s_err + ROOM));
         }
     }
 
-    /// How many crossings, which it sorts along the line, lie before all pieces from `near` on and apart
-    /// from the other crossings.
+    /// Sorts crossings along the line. Returns how many of them lie before all pieces from `near` on and
+    /// apart from the other crossings. Unproven crossings, and brackets that are not far narrower than
+    /// the room, close the search.
     pub(super) fn known(&mut self, found: &mut [Found], near: f64) -> usize {
         if found.iter().any(|f| f.sign == 0 || f.s_err > 0.25 * ROOM) {
             self.close();

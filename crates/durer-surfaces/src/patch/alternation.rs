@@ -40,11 +40,13 @@ pub(super) fn decide(
     }
     join_unproven(found, room);
     in_turn(found, outward);
+    let turns: Vec<i8> = found.iter().map(|f| f.turn).collect();
     if !alternate(found, outward) {
         *found = all;
         return false;
     }
-    for f in found.iter_mut().filter(|f| f.is_zero) {
+    // The proof is of the direction in which the patch is crossed, not of another one.
+    for (f, _) in found.iter_mut().zip(turns).filter(|(f, turn)| f.is_zero && f.turn == *turn) {
         f.sign = f.turn;
     }
     true

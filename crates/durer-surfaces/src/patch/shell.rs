@@ -330,7 +330,7 @@ impl Shell {
                 roots.push(root);
             }
         }
-        // What alternation has decided stays in its order.
+        // Alternation has decided the order of a solid's crossings.
         let is_in_turn = self.is_closed && self.seal == 0.0;
         (if is_in_turn { roots.pour_in_turn(sink) } else { roots.pour(sink) }, unproven)
     }

@@ -277,11 +277,7 @@ impl Tail {
 
 impl Patch {
     fn cells(&self) -> &[Cell] {
-        self.cells.get_or_init(|| {
-            let mut all = Vec::new();
-            cells(&self.net, false, 0, &mut all);
-            all.into_iter().map(|(cell, _)| cell).collect()
-        })
+        self.cells.get_or_init(|| cells_of(&self.net, 0))
     }
 }
 
@@ -307,6 +303,8 @@ pub(super) enum Spot {
 #[derive(Clone, Copy, Debug)]
 enum Item {
     Cell(u32),
+    /// A patch whose cells are made when a line meets the hull of its points.
+    Leaf(u32),
     Tail(u32),
 }
 
@@ -328,6 +326,8 @@ pub(super) struct Limit {
     /// The control points of the leaves in double-double.
     nets: Box<[FaceNet]>,
     cells: Box<[Cell]>,
+    /// The cells of leaves that are elements of the tree themselves.
+    lazy_cells: Box<[OnceLock<Box<[Cell]>>]>,
     items: Box<[Item]>,
     tree: BoxTree,
     pub(super) is_triangles: bool,
@@ -369,8 +369,15 @@ fn meet_cell(line: &Line, cell: &Cell, exact: &Exact<'_>, found: &mut Vec<Found>
 }
 
 /// A box that holds points.
-fn hull(points: &[[Dd; 3]]) -> Aabb {
-    Aabb::from_points(points.iter().map(|p| Vec3::from(p.map(Dd::to_f64)).to_point()))
+fn hull(points: impl Iterator<Item = [Dd; 3]>) -> Aabb {
+    Aabb::from_points(points.map(|p| Vec3::from(p.map(Dd::to_f64)).to_point()))
+}
+
+/// The cells of a patch.
+fn cells_of(net: &FaceNet, face: u32) -> Box<[Cell]> {
+    let mut all = Vec::new();
+    cells(net, false, face, &mut all);
+    all.into_iter().map(|(cell, _)| cell).collect()
 }
 
 impl Limit {
@@ -405,6 +412,9 @@ impl Limit {
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut nets, mut tails) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = Vec::new();
+        // What becomes an element of the tree, and its box.
+        let (mut boxes, mut items) = (Vec::new(), Vec::new());
+        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
         let mut open: Vec<(usize, Node)> =
             roots.into_iter().map(|node| (node.place.face as usize, node)).collect();
         open.reverse();
@@ -412,7 +422,16 @@ impl Limit {
             if let Some(net) = node.net(&plans) {
                 spots[spot] = Spot::Leaf(leaves.len() as u32);
                 let leaf = Leaf::new(node.place, &net);
-                cells(&net, false, leaves.len() as u32, &mut all);
+                if node.depth == 0 {
+                    let first = all.len();
+                    cells(&net, false, leaves.len() as u32, &mut all);
+                    boxes.extend(all[first..].iter().map(|(_, bounds)| *bounds));
+                    items.extend((first..all.len()).map(|k| Item::Cell(k as u32)));
+                } else {
+                    // Beside a corner there are many, of one or a few cells.
+                    boxes.push(hull(net.points().iter().map(|&[x, y, z, _]| [x, y, z])).expanded(room));
+                    items.push(Item::Leaf(leaves.len() as u32));
+                }
                 nets.push(net);
                 leaves.push(leaf);
             } else if node.depth < ahead
@@ -424,20 +443,18 @@ impl Limit {
                 open.extend(quarters.into_iter().enumerate().rev().map(|(k, node)| (first + k, node)));
             } else {
                 spots[spot] = Spot::Tail(tails.len() as u32);
+                boxes.push(hull(node.points.iter().copied()).expanded(room));
+                items.push(Item::Tail(tails.len() as u32));
                 tails.push(Tail::new(node));
             }
         }
-        let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
-        let mut boxes: Vec<Aabb> = all.iter().map(|(_, bounds)| *bounds).collect();
-        boxes.extend(tails.iter().map(|tail| hull(&tail.node.points).expanded(room)));
         let (tree, order) = BoxTree::new(&boxes);
         let units = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b)).expanded(room);
         let back = |p: Point3| centre + p.to_vec().map(|x| scale2(x, scale));
         let bounds = Aabb::new(back(units.min), back(units.max));
         let bounds = bounds.expanded(Vec3::new(1.0, 1.0, 1.0) * (4.0 * U * bounds.magnitude()));
-        let count = all.len() as u32;
-        let item = |i: &u32| if *i < count { Item::Cell(*i) } else { Item::Tail(*i - count) };
-        let items = order.iter().map(item).collect();
+        let items = order.iter().map(|&i| items[i as usize]).collect();
+        let lazy_cells = leaves.iter().map(|_| OnceLock::new()).collect();
         Some(Self {
             bounds,
             centre,
@@ -450,6 +467,7 @@ impl Limit {
             spots: spots.into(),
             nets: nets.into(),
             cells: all.into_iter().map(|(cell, _)| cell).collect(),
+            lazy_cells,
             items,
             tree,
             is_triangles,
@@ -588,6 +606,13 @@ impl Limit {
             let first = lists.found.len();
             match self.items[item] {
                 Item::Cell(k) => meet_cell(&line, &self.cells[k as usize], &exact, &mut lists.found),
+                Item::Leaf(k) => {
+                    for cell in
+                        self.lazy_cells[k as usize].get_or_init(|| cells_of(&self.nets[k as usize], k))
+                    {
+                        meet_cell(&line, cell, &exact, &mut lists.found);
+                    }
+                }
                 Item::Tail(k) => self.unfold(at, &line, &self.tails[k as usize], window, lists),
             }
             lists.ahead.note(&lists.found[first..]);
