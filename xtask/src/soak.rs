@@ -20,8 +20,16 @@ const TURN: Duration = Duration::from_secs(60);
 /// The greatest growth of the number of cases from turn to turn. The speed of a short turn is not a
 /// reliable measure.
 const GROWTH: f64 = 32.0;
-/// The tests of durer-surfaces in a soak have this in their names.
-const LAW: &str = "obey_the_laws";
+/// The tests of durer-surfaces in a soak have one of these in their names.
+const LAWS: [&str; 7] = [
+    "obey_the_laws",
+    "have_their_exact_crossings",
+    "rays_from_inside",
+    "no_ray_escapes",
+    "a_parametric_",
+    "the_union_of_balls",
+    "certain_signs_at_their_ends",
+];
 
 /// Tests that are counted together.
 struct Kind {
@@ -42,6 +50,14 @@ struct Program {
 
 const MESHES: Program = Program { package: "durer-geometry", target: &["--test", "leaks"] };
 const SURFACES: Program = Program { package: "durer-surfaces", target: &["--lib"] };
+/// Test programs that are kinds of their own, with their names.
+const PROGRAMS: [(&str, Program); 5] = [
+    ("meshes", MESHES),
+    ("blobs", Program { package: "durer-surfaces", target: &["--test", "blobs"] }),
+    ("deformed solids", Program { package: "durer-surfaces", target: &["--test", "deform"] }),
+    ("isosurfaces", Program { package: "durer-surfaces", target: &["--test", "isosurface"] }),
+    ("Julia sets", Program { package: "durer-surfaces", target: &["--test", "julia_sets"] }),
+];
 
 /// The sums on the page.
 #[derive(Debug, Default)]
@@ -97,7 +113,7 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         return Err(format!("soak: there is no kind {name:?}; there are {}", names.join(", ")));
     }
     kinds.retain(|kind| request.kinds.is_empty() || request.kinds.contains(&kind.name));
-    let mut programs = BTreeMap::from([(SURFACES.package, surfaces)]);
+    let mut programs = BTreeMap::from([(SURFACES.name(), surfaces)]);
     let mut sums = Sums::read(&std::fs::read_to_string(&path).unwrap_or_default());
     let end = Instant::now() + Duration::from_secs(60 * request.minutes);
     while Instant::now() < end {
@@ -105,16 +121,19 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         if sums.rays(&kind.name) >= request.rays {
             break;
         }
-        let program = match programs.get(kind.program.package) {
+        let program = match programs.get(&kind.program.name()) {
             Some(program) => program.clone(),
             None => kind.program.build()?,
         };
-        programs.insert(kind.program.package, program.clone());
+        programs.insert(kind.program.name(), program.clone());
         let start = Instant::now();
         let outcome = kind.turn(&program, &mut sums);
         // The results so far are saved, whatever happens next.
         std::fs::write(&path, sums.page()).map_err(|e| format!("{PAGE}: {e}"))?;
         outcome?;
+        if sums.rays(&kind.name) == 0 {
+            return Err(format!("{}: its tests report no rays", kind.name));
+        }
         kind.factor = next_factor(kind.factor, start.elapsed());
     }
     println!("{}", sums.table());
@@ -127,17 +146,19 @@ fn next_factor(factor: u64, took: Duration) -> u64 {
     ((factor as f64 * growth) as u64).max(1)
 }
 
-/// The kinds: closed meshes, and all modules of durer-surfaces with tests of the laws.
+/// The kinds: some test programs, and all modules of durer-surfaces with tests of the laws.
 fn kinds(surfaces: &Path) -> Outcome<Vec<Kind>> {
-    let mut kinds = vec![Kind { name: "meshes".into(), program: MESHES, tests: vec![], factor: 1 }];
+    let whole =
+        |(name, program): (&str, Program)| Kind { name: name.into(), program, tests: vec![], factor: 1 };
+    let mut kinds: Vec<Kind> = PROGRAMS.into_iter().map(whole).collect();
     let list = Command::new(surfaces).arg("--list").output();
     let list = list.map_err(|e| format!("{}: cannot start: {e}", surfaces.display()))?;
     if !list.status.success() {
         return Err(format!("{}: {}", surfaces.display(), String::from_utf8_lossy(&list.stderr)));
     }
     let list = String::from_utf8_lossy(&list.stdout);
-    for test in list.lines().filter_map(|line| line.strip_suffix(": test")).filter(|name| name.contains(LAW))
-    {
+    let is_law = |name: &&str| LAWS.iter().any(|law| name.contains(law));
+    for test in list.lines().filter_map(|line| line.strip_suffix(": test")).filter(is_law) {
         let name = module(test);
         match kinds.iter_mut().find(|kind| kind.name == name) {
             Some(kind) => kind.tests.push(test.into()),
@@ -148,11 +169,17 @@ fn kinds(surfaces: &Path) -> Outcome<Vec<Kind>> {
 }
 
 impl Program {
+    /// A name for a file, one for each program.
+    fn name(self) -> String {
+        let target = self.target.join("-");
+        format!("{}{target}", self.package)
+    }
+
     /// Builds the program and keeps a copy, so that later builds do not change a running soak.
     fn build(self) -> Outcome<PathBuf> {
         let arguments = [&["test", "--release", "--no-run", "--package", self.package], self.target].concat();
         let path = built(&format!("cargo {}", arguments.join(" ")), &arguments, |_| true)?;
-        let copy = scratch("soak")?.join(self.package);
+        let copy = scratch("soak")?.join(self.name());
         std::fs::copy(path, &copy).map_err(|e| format!("{}: {e}", copy.display()))?;
         Ok(copy)
     }
@@ -249,6 +276,8 @@ impl Sums {
              Each turn goes to the kind with the fewest rays. `--minutes N` limits the time (60), `--rays N` the rays of each kind, and names of kinds the kinds.\n\n\
              - **meshes**: closed meshes (a grid of integers, an icosphere, a body with spikes; shifted by up to 10⁶, scaled by 10⁻⁶, turned by a placement); rays from inside, half of them \
              aimed exactly at vertices and points of edges, some along axes. Each has to cross an odd number of times, and the first crossing is the closest hit (`crates/durer-geometry/tests/leaks.rs`).\n\
+             - **blobs**, **Julia sets**, **isosurfaces**, **deformed solids**: signs at the ends of brackets in exact arithmetic or 256 bits, and the same surface in another form \
+             (`crates/durer-surfaces/tests`).\n\
              - **other kinds**: rays aimed at tangents, edges and vertices from near and far. The laws compare the surface's answers with exact arithmetic: no crossing is missing, extra, doubled or \
              outside its bracket, points and normals are within their bounds, and rays that leave the surface start on its right side and meet what the exact ray meets \
              (`crates/durer-surfaces/src/laws`). A ray counts once, with all rays that leave its crossings.\n\n\

@@ -234,7 +234,7 @@ impl Surface for Plane {
         // Moved onto the plane: along the ray within the bracket, which undoes the rounding of a
         // far start's parameter; then along the normal.
         let height = |x: Vec3| n.dot(x) - offset.v.hi;
-        let width = ray.unmoved().width(root.lo, root.hi);
+        let width = ray.unmoved().width(root);
         let step = height(x) / n.dot(ray.d);
         let step = if step.abs() <= width { step } else { 0.0 };
         let x = x - ray.d * step;

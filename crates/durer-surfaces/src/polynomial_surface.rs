@@ -455,7 +455,7 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let ((px, lx), (py, ly), (pz, lz)) = (axis(centre.x, y1.x), axis(centre.y, y1.y), axis(centre.z, y1.z));
     let p = Point3::new(px, py, pz);
     let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
-    let width = at.width(root.lo, root.hi);
+    let width = at.width(root);
     let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
     // A start at p ± off n + τ, τ what rounding adds away from the surface, has |f| >= off |G| - h

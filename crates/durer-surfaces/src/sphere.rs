@@ -193,7 +193,7 @@ impl Sphere {
         let length = square.sqrt();
         let off = eta / (2.0 * length) * (1.0 + 4.0 * eta) * (1.0 + 64.0 * U);
         let n = y1 * (1.0 / length);
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
         let mut point = SurfacePoint::new(
             p,

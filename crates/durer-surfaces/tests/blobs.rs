@@ -14,6 +14,7 @@ use durer_math::{Affine, Dyadic, Point3, Ray, Vec3};
 use durer_surfaces::{
     All, Blob, BlobComponent, BlobError, BlobShape, LocalRay, Need, Placed, Root, RootKind, Sphere, Surface,
 };
+use durer_testkit::{drawn, report};
 use laws::{holds_together, polynomial, same};
 use solids::{Met, all};
 
@@ -26,13 +27,15 @@ fn a_blob_of_one_ball_is_a_ball() {
     // (1 - d^2/4)^2 = 1/4 where d^2 = 2.
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
     let exact = polynomial(2, &[([2, 0, 0], 1.0), ([0, 2, 0], 1.0), ([0, 0, 2], 1.0), ([0; 3], -2.0)]);
-    let (mut dice, mut met) = (Dice(14), Met::default());
-    for _ in 0..6_000 {
-        let ray = dice.ray();
+    let (mut met, mut rays) = (Met::default(), 0);
+    for case in drawn(6_000) {
+        rays += 1;
+        let ray = Dice::of_case(14, case).ray();
         let (a, b) = (all(&one, &ray), all(&exact, &ray));
         assert!(same(&a, &b), "{ray:?}\n blob {a:?}\n ball {b:?}");
         met.add(&a);
     }
+    report(rays);
     println!("{} simple, {} clusters, median {:.1} ulp", met.simple, met.clusters, met.median());
     assert!(met.simple > 6_000 && met.clusters * 1000 < met.simple && met.median() < 1000.0);
 }
@@ -202,9 +205,9 @@ fn exact_sign(parts: &[BlobComponent], threshold: f64, ray: &Ray, t: f64) -> std
 
 #[test]
 fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
-    let mut dice = Dice(16);
-    let mut met = Met::default();
-    for _ in 0..12 {
+    let (mut met, mut rays) = (Met::default(), 0);
+    for case in drawn(12) {
+        let mut dice = Dice::of_case(16, case);
         let parts: Vec<_> = (0..2 + dice.below(8))
             .map(|i| {
                 let strength =
@@ -228,6 +231,7 @@ fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
         for _ in 0..400 {
             let ray = dice.ray();
             let roots = all(&surface, &ray);
+            rays += 1;
             holds_together(&surface, &ray, &roots, value);
             for root in roots.iter().filter(|r| r.kind == RootKind::Simple) {
                 let (lo, hi) =
@@ -240,6 +244,7 @@ fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
             met.add(&roots);
         }
     }
+    report(rays);
     println!("{} simple, {} clusters, median {:.1} ulp", met.simple, met.clusters, met.median());
     assert!(met.simple > 2_000 && met.clusters * 1000 < met.simple && met.median() < 1000.0);
 }

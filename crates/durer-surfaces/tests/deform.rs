@@ -14,6 +14,7 @@ use durer_surfaces::{
     All, Axis, DeformError, Isosurface, LevelSet, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere,
     Surface, Torus, Warp,
 };
+use durer_testkit::{drawn, report};
 use std::sync::Arc;
 use witness::{Real, Solid, was};
 
@@ -92,8 +93,7 @@ fn ray_at(dice: &mut Dice, bounds: &Aabb) -> Ray {
 
 #[test]
 fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
-    let mut dice = Dice(7);
-    let (mut met, mut clusters, mut widths) = (0, 0, Vec::new());
+    let (mut rays, mut met, mut clusters, mut widths) = (0, 0, 0, Vec::new());
     for (n, rope) in ropes().iter().enumerate() {
         for solid in [Solid::Block, Solid::Ball, Solid::Ring, Solid::Shell] {
             let deformed = surface(&deformed(&solid.level_set(), rope));
@@ -103,8 +103,10 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
             };
             let sample =
                 |p: Point3| solid.value(&rope.iter().rev().fold(p.to_array(), |p, warp| was(warp, &p)));
-            for _ in 0..60 {
+            for case in drawn(60) {
+                let mut dice = Dice::of_case(7 + 64 * n as u64 + solid as u64, case);
                 let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
+                rays += 1;
                 let at = |t: f64| {
                     let t = BigFloat::of(t);
                     [0, 1, 2].map(|i| {
@@ -151,6 +153,7 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
             }
         }
     }
+    report(rays);
     widths.sort_by(f64::total_cmp);
     let median = widths[widths.len() / 2];
     println!("{met} roots, {clusters} clusters, median width {median:.1} ulp");

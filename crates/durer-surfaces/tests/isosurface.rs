@@ -11,6 +11,7 @@ use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };
+use durer_testkit::{drawn, report};
 use formulas::{Pen, all, iso};
 
 /// `(x - a)^2 + y^2 + z^2 - r^2`.
@@ -97,13 +98,14 @@ fn same(a: &[Root], b: &[Root]) -> bool {
 
 #[test]
 fn a_sphere_as_a_formula_is_the_sphere() {
-    let mut dice = Dice(1);
+    let mut rays = 0;
     for (formula, r) in [(sphere(0.0, 1.0), 1.0), (distance_sphere(1.0), 1.0), (sphere(0.0, 0.75), 0.75)] {
         let formula = iso(&formula, 1.5);
         let exact = Sphere::new(Point3::ORIGIN, r).unwrap();
         let (mut met, mut unsure, mut widths) = (0, 0, Vec::new());
-        for _ in 0..20_000 {
-            let ray = ray_at_a_ball(&mut dice, r);
+        for case in drawn(20_000) {
+            let ray = ray_at_a_ball(&mut Dice::of_case(1, case), r);
+            rays += 1;
             let (a, b) = (all(&formula, &ray), all(&exact, &ray));
             assert!(same(&a, &b), "{ray:?}\n formula {a:?}\n sphere {b:?}");
             assert!(a.windows(2).all(|w| w[0].t <= w[1].t));
@@ -126,6 +128,7 @@ fn a_sphere_as_a_formula_is_the_sphere() {
         // A quarter of the rays is aimed at tangents within rounding.
         assert!(unsure < met / 4, "{unsure} of {met} unsure");
     }
+    report(rays);
 }
 
 /// Waves that only some cells separate, with edges where the planes of `max` meet them.
@@ -214,10 +217,11 @@ fn pictures_see_as_much_of_a_rim() {
 
 #[test]
 fn two_formulas_of_a_torus_agree() {
-    let mut dice = Dice(2);
     let (a, b) = (iso(&torus(1.0, 0.25), 1.5), iso(&quartic_torus(1.0, 0.25), 1.5));
-    let (mut met, mut unsure) = (0, 0);
-    for _ in 0..20_000 {
+    let (mut rays, mut met, mut unsure) = (0, 0, 0);
+    for case in drawn(20_000) {
+        let mut dice = Dice::of_case(2, case);
+        rays += 1;
         let radius = [1.25, 0.75, 1.0][dice.below(3) as usize];
         let ray = ray_at_a_ball(&mut dice, radius);
         let (x, y) = (all(&a, &ray), all(&b, &ray));
@@ -225,6 +229,7 @@ fn two_formulas_of_a_torus_agree() {
         met += x.len();
         unsure += x.iter().filter(|r| r.kind != RootKind::Simple).count();
     }
+    report(rays);
     println!("{met} roots, {unsure} clusters");
     assert!(met > 10_000 && unsure * 100 < met, "{met} roots, {unsure} unsure");
 }
@@ -239,8 +244,10 @@ fn a_container_closes_what_it_cuts() {
         Sphere::new(Point3::ORIGIN, 1.2).unwrap(),
         AxisBox::new(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0)).unwrap(),
     );
-    let mut dice = Dice(3);
-    for _ in 0..20_000 {
+    let mut rays = 0;
+    for case in drawn(20_000) {
+        let mut dice = Dice::of_case(3, case);
+        rays += 1;
         let d = dice.vector();
         let ray = Ray::new((dice.vector() * 1.5).to_point(), d).with_range(f64::NEG_INFINITY, f64::INFINITY);
         let (x, y) = (all(&ball, &ray), all(&block, &ray));
@@ -272,6 +279,7 @@ fn a_container_closes_what_it_cuts() {
             ball.side(&LocalPoint::new(p)) == Side::In && block.side(&LocalPoint::new(p)) == Side::In;
         assert_eq!(side == Side::In, within, "{p:?}");
     }
+    report(rays);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use durer_surfaces::{
     Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, LocalPoint, LocalRay, Need, Placed, Root,
     RootKind, Side, Surface, superellipsoid,
 };
+use durer_testkit::{drawn, report};
 use solids::{Met, all};
 
 fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u32) -> Julia {
@@ -150,7 +151,7 @@ fn exactly_in(set: &Julia, ray: &Ray, t: f64) -> bool {
 
 #[test]
 fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
-    let mut dice = Dice(21);
+    let mut rays = 0;
     let cases = [
         (JuliaAlgebra::Quaternion, JuliaPower::Square, [-0.083, 0.0, -0.83, -0.025], 5),
         (JuliaAlgebra::Quaternion, JuliaPower::Square, [-1.5, 0.25, 0.0, 0.0], 4),
@@ -165,7 +166,9 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
         let data = Julia { distance: 0.125, radius, ..julia_of(c, algebra, power, iterations) };
         let surface = JuliaSet::new(&data).unwrap();
         let mut met = Met::default();
-        for _ in 0..60 {
+        for case in drawn(60) {
+            let mut dice = Dice::of_case(21 + i as u64, case);
+            rays += 1;
             let through = (dice.vector() * 0.7).to_point();
             let direction = dice.vector();
             let ray = Ray::new(through - direction * (4.0 / direction.length()), direction);
@@ -197,6 +200,7 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
         );
         assert!(met.simple > 20 && met.clusters * 100 <= met.simple, "{} {}", met.simple, met.clusters);
     }
+    report(rays);
 }
 
 #[test]

@@ -113,7 +113,7 @@ impl Blob {
             (axis(self.centre.x, y1.x), axis(self.centre.y, y1.y), axis(self.centre.z, y1.z));
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -self.scale) + TINY);
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
         // A start at `p ± off n + τ`, with `τ` the rounding away from the surface, has `|f| >= off

@@ -173,7 +173,7 @@ impl<'a> Line<'a> {
         Some(interval(&self.system.leaf, &ray).map(|ends| {
             let [a, b] = [(&ends[0], -1), (&ends[1], 1)].map(|(end, sign)| {
                 let (s, lo, hi) = end.bracket();
-                Event { pass: Pass { s, lo, hi, face: end.face, sure: false }, word, sign }
+                Event { pass: Pass { s, lo, hi, face: end.face, sure: true }, word, sign }
             });
             [a, b]
         }))
@@ -191,6 +191,14 @@ impl<'a> Line<'a> {
     fn end(&self, event: &Event) -> Option<ExactEnd> {
         let [entry, exit] = interval(&self.system.leaf, &self.exact_ray(event.word)?)?;
         Some(if event.sign < 0 { entry } else { exit })
+    }
+
+    /// The face of an end whose faces f64 arithmetic does not tell apart; `None` if the line is not
+    /// exactly known.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn face(&self, event: &Event) -> Option<u32> {
+        Some(self.end(event)?.face)
     }
 
     /// The order of two ends, exactly; `None` if the line is not exactly known.

@@ -410,6 +410,17 @@ fn placed_sets_obey_the_laws() {
     assert!(roots > 100, "{roots}");
 }
 
+#[test]
+fn a_far_ray_meets_two_copies_within_one_bracket() {
+    let mut ray = Ray::new(
+        Point3::new(3.062499999999999, -0.3437500000000001, -548312.8431143716),
+        Vec3::new(0.0, 0.0, 1.0458250331675947),
+    );
+    ray.t_min = -524288.0;
+    let set = Placed::new(Ifs::sierpinski(3).unwrap(), shear());
+    crate::laws::check(&set, &Copies::sierpinski(3).placed(shear()), &ray).unwrap();
+}
+
 fn scaling(s: f64, t: [f64; 3]) -> Affine {
     Affine::new([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]], Point3::from(t)).unwrap()
 }

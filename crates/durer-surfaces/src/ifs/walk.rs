@@ -310,6 +310,12 @@ impl Walk<'_, '_> {
             None if self.is_beyond(&event, (lo, hi), sign) => return ControlFlow::Continue(()),
             None => {}
         }
+        // The planes of two faces may be nearer to each other than the bracket is wide.
+        if !event.pass.sure
+            && let Some(face) = self.line.face(&event)
+        {
+            event.pass.face = face;
+        }
         let ray = at.local();
         let (lo, hi) = (lo.max(ray.t_min), hi.min(ray.t_max));
         let t = at.t(event.pass.s).max(lo).min(hi).max(self.least).clamp(f64::MIN, f64::MAX);

@@ -91,7 +91,7 @@ impl Isosurface {
         let line = BoundedLine::new(&at, root.s.abs());
         let p0 = line.point(root.s);
         let size = p0.to_vec().max_abs();
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let direction = line.direction();
         let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
         // The crossing is no farther than this along any axis, so it may lie on a plane that is

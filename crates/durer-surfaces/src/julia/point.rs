@@ -70,7 +70,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         let s = root.s;
         let p0 = Vec3::new(at.o.x + s * at.d.x, at.o.y + s * at.d.y, at.o.z + s * at.d.z);
         let e = at.o_err + at.d_err * s.abs() + (at.o.abs() + at.d.abs() * s.abs()) * (2.0 * U);
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let (p, g, bend) = self.nearer(p0, 64.0 * (width + 4.0 * U));
         let length = g.x.mul_add(g.x, g.y.mul_add(g.y, g.z * g.z)).sqrt();
         let n = g * (1.0 / length);

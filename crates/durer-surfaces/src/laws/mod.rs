@@ -8,7 +8,8 @@
 
 pub use durer_testkit::{
     Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, Feature, LineCache, Oracle, RealRoot, Surd,
-    TestRng, ZeroOracle, aim, exact, exact_polynomial, exact3, near, real_root, real_roots, test_rng,
+    TestRng, ZeroOracle, aim, dice, drawn, exact, exact_polynomial, exact3, near, real_root, real_roots,
+    report, test_rng,
 };
 
 use crate::{
@@ -16,7 +17,6 @@ use crate::{
     SurfacePoint,
 };
 use core::cmp::Ordering;
-use core::ops::Range;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Ray, RaySide, U, Vec3};
 
@@ -61,11 +61,11 @@ pub fn check(surface: &dyn TestSurface, oracle: &dyn Oracle, ray: &Ray) -> Resul
     brackets_are_narrow(surface, oracle, ray, &roots)?;
     a_reversed_ray_meets_the_same(surface, ray, &roots)?;
     powers_of_two_change_nothing(surface, ray, &roots)?;
-    for root in &roots {
+    for (i, root) in roots.iter().enumerate() {
         // Beyond 2^450 sizes squares leave the range of f64.
         let far = ray.at(root.t).to_vec().max_abs() > oracle.size() * durer_math::scale::ldexp(1.0, 450);
         if root.kind != RootKind::Cluster && !far {
-            points_are_within_their_bounds(surface, oracle, ray, root)?;
+            points_are_within_their_bounds(surface, oracle, ray, root, &roots[..i])?;
         }
     }
     Ok(roots)
@@ -98,28 +98,6 @@ pub fn check_alone(surface: &dyn TestSurface, ray: &Ray) -> Result<Vec<Root>, Br
         }
     }
     Ok(roots)
-}
-
-/// The numbers of the cases that this run tests, where a normal test run tests `count`.
-///
-/// `DURER_SOAK=N` tests N times as many, and `DURER_SOAK_FROM=K` starts after the cases of K such
-/// runs (`cargo xtask soak`).
-pub fn drawn(count: u64) -> Range<u64> {
-    let variable = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
-    let from = variable("DURER_SOAK_FROM").unwrap_or(0);
-    count * from..count * (from + variable("DURER_SOAK").unwrap_or(1))
-}
-
-/// The random numbers of one of these cases: they differ for all seeds and cases.
-pub fn dice(seed: u64, case: u64) -> TestRng {
-    TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(case))
-}
-
-/// Prints how many rays obeyed the laws, for a soak test to add up.
-pub fn report(rays: u64) {
-    if std::env::var_os("DURER_SOAK").is_some() {
-        println!("soaked: {} {rays}", std::thread::current().name().unwrap_or("laws"));
-    }
 }
 
 /// Draws `count` rays at `features` and checks all laws for each; see [`drawn`].
@@ -348,19 +326,26 @@ pub fn powers_of_two_change_nothing(
 
 /// P4, P5, P11, P12: the point is within `dp` of the exact one and in the bounds; its normal is the
 /// surface's; spawned rays start on the requested side, and their hits are those of the exact ray.
+///
+/// `earlier` are the roots before this one.
 pub fn points_are_within_their_bounds(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,
     ray: &Ray,
     root: &Root,
+    earlier: &[Root],
 ) -> Result<(), Broken> {
     let line = ExactLine::new(ray);
-    let Some(exact) = oracle.crossings(&line).into_iter().find(|c| {
-        // If t does not separate two crossings, the one with the root's sign.
-        c.sign == root.sign
-            && c.t.cmp_exact(&root.lo.into()).is_ge()
-            && c.t.cmp_exact(&root.hi.into()).is_le()
-    }) else {
+    let holds = |root: &Root, c: &Crossing| {
+        c.t.cmp_exact(&root.lo.into()).is_ge() && c.t.cmp_exact(&root.hi.into()).is_le()
+    };
+    // If t does not separate some crossings, those with the root's sign, in their order.
+    let mut found = oracle.crossings(&line);
+    found.retain(|c| c.sign == root.sign && holds(root, c));
+    let before =
+        |first: &Crossing| earlier.iter().filter(|r| r.sign == root.sign && holds(r, first)).count();
+    let rank = found.first().map_or(0, before).min(found.len().saturating_sub(1));
+    let Some(exact) = found.into_iter().nth(rank) else {
         return Err("no crossing in the bracket".into());
     };
     let point = surface.resolve(&LocalRay::new(ray), root, Need::ALL);

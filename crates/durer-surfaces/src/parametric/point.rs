@@ -83,7 +83,7 @@ impl Sheet {
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -self.unit.scale) + TINY);
         // The exact crossing is on the ray, within its bracket.
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
 
         let (n, bend) = self.normal(face, root.tag, &jet);

@@ -180,7 +180,7 @@ pub(super) fn located(
     let p = Point3::new(px, py, pz);
     let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
     // The exact crossing is on the ray, within its bracket.
-    let width = at.width(root.lo, root.hi);
+    let width = at.width(root);
     let dp = ((y - q).abs() + e_q + at.d.abs() * width + lost) * (1.0 + 16.0 * U);
 
     let (n, tangent) = match normal {

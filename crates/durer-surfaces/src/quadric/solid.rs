@@ -130,7 +130,7 @@ impl View<'_> {
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
 
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = (e_y + at.d.abs() * width + (y1 - y).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
         let off = self.off(face, p, (f, half), lost, dp.x + dp.y + dp.z);
         let (ng, gradient) = off.normal;

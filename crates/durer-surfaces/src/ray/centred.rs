@@ -2,6 +2,7 @@
 //! from the point nearest to it (rules W3 and W4).
 
 use super::{End, LocalRay, ParameterMap, RingRay, TINY, U, relative};
+use crate::Root;
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Dd, EFloat, Point3, RaySide, Ring, Vec3};
 
@@ -188,10 +189,13 @@ impl<'a> CentredRay<'a> {
         scale2(self.clock.shift().0, -self.clock.k)
     }
 
-    /// The length in `s` of a bracket `[lo, hi]` of `t`.
+    /// A bound on the distance in `s` between a root's `s` and its exact crossing: the length of the
+    /// root's bracket. A bracket that an end of the ray's range cuts short may not hold `s`.
     #[inline(always)]
-    pub fn width(&self, lo: f64, hi: f64) -> f64 {
-        scale2((hi - lo) * (1.0 + 4.0 * U), -self.clock.k) + TINY
+    pub fn width(&self, root: &Root) -> f64 {
+        let (lo, hi) = self.bracket(root.s, root.s);
+        let length = root.hi.max(hi) - root.lo.min(lo);
+        scale2(length * (1.0 + 4.0 * U), -self.clock.k) + TINY
     }
 
     /// The ray's point at an end of its range, relative to the centre, in units of `2^scale`, with

@@ -205,7 +205,7 @@ impl SphereSweep {
             (axis(self.centre.x, y.x), axis(self.centre.y, y.y), axis(self.centre.z, y.z));
         let p = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -self.scale) + TINY);
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = (e_q + at.d.abs() * width + moved.abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
         // By how much another ball may hold more than this one: p1² / (4 p2), over 2 r. Near an end

@@ -4,7 +4,7 @@
 use super::gauge::{Sample, VALUE};
 use super::{Answer, Gauge};
 use crate::implicit::{Isosurface, superellipsoid};
-use crate::laws::TestRng;
+use crate::laws::{self, TestRng};
 use crate::{All, Any, Closest, LocalPoint, LocalRay, Need, Root, RootKind, Side, Surface};
 use astro_float::{BigFloat, Consts, RoundingMode};
 use durer_math::{Isa, Point3, Ray, RaySide, U, Vec3};
@@ -219,12 +219,13 @@ fn all_paths_give_the_same_bits() {
 /// is a touch, or near an end of the range.
 #[test]
 fn the_crossings_are_those_of_the_tape() {
-    let mut dice = TestRng::new(3);
-    for shape in SHAPES {
+    let mut all_rays = 0;
+    for (number, shape) in SHAPES.into_iter().enumerate() {
         let surface = superellipsoid(shape.0, shape.1).unwrap();
         let gauge = surface.gauge.clone().unwrap();
         let (mut told, mut met, mut rays) = (0, 0, 0);
-        for _ in 0..1_000 {
+        for case in laws::drawn(1_000) {
+            let mut dice = laws::dice(3 + number as u64, case);
             let ray = aimed(&mut dice, shape);
             if !ray.is_valid() {
                 continue;
@@ -268,7 +269,9 @@ fn the_crossings_are_those_of_the_tape() {
         }
         println!("{shape:?}: {told} of {rays} rays, {met} crossings");
         assert!(told * 10 >= rays * 7 && met > 300, "{shape:?}: {told} of {rays} rays, {met}");
+        all_rays += rays;
     }
+    laws::report(all_rays);
 }
 
 #[test]
@@ -292,15 +295,17 @@ fn nearly_every_ray_of_a_picture_is_told_without_the_tape() {
 
 #[test]
 fn brackets_have_certain_signs_at_their_ends() {
-    let (mut exact, mut dice) = (Exact::new(), TestRng::new(5));
-    let (mut roots, mut widths) = (0, Vec::new());
-    for round in 0..700 {
-        let shape = SHAPES[round % SHAPES.len()];
+    let mut exact = Exact::new();
+    let (mut rays, mut roots, mut widths) = (0, 0, Vec::new());
+    for case in laws::drawn(700) {
+        let mut dice = laws::dice(5, case);
+        let shape = SHAPES[(case % SHAPES.len() as u64) as usize];
         let gauge = Gauge::new(shape.0, shape.1).unwrap();
         let ray = aimed(&mut dice, shape);
         if !ray.is_valid() {
             continue;
         }
+        rays += 1;
         let rough = dice.once_in(2);
         let local = LocalRay::new(&ray);
         let local = if rough { local.roughly() } else { local };
@@ -317,6 +322,7 @@ fn brackets_have_certain_signs_at_their_ends() {
             }
         }
     }
+    laws::report(rays);
     widths.sort_by(f64::total_cmp);
     println!("{roots} roots, widths of narrow ones: median {:.1} ulp", widths[widths.len() / 2]);
     assert!(roots > 600 && widths[widths.len() / 2] < 2000.0);

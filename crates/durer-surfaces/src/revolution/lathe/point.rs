@@ -71,7 +71,7 @@ impl Lathe {
         let ((px, lx), (py, ly), (pz, lz)) = (axis(centre.x, p.x), axis(centre.y, p.y), axis(centre.z, p.z));
         let place = Point3::new(px, py, pz);
         let lost = Vec3::new(lx, ly, lz).map(|l| scale2(l.abs(), -scale) + TINY);
-        let width = at.width(root.lo, root.hi);
+        let width = at.width(root);
         let dp = (e_q + at.d.abs() * width + (p - q).abs() * (1.0 + 4.0 * U) + lost) * (1.0 + 16.0 * U);
 
         // The right of the profile: (y', -r').

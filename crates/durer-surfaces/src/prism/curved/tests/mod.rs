@@ -123,6 +123,20 @@ fn curved_prisms_obey_the_laws_off_their_joints() {
 }
 
 #[test]
+fn a_range_shorter_than_the_bracket_keeps_the_bounds_of_points() {
+    let profile = vec![vec![
+        [[-2.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [2.0, 0.0]],
+        [[2.0, 0.0], [2.0, 3.0], [-2.0, 3.0], [-2.0, 0.0]],
+    ]];
+    let prism = CurvedPrism::new(&profile, 0.0, 1.0, Sweep::Conic).unwrap();
+    let oracle = Swept::new(profile, 0.0, 1.0, Sweep::Conic);
+    // The bracket is [0, 0], the kernel's own parameter of the crossing 3e-21.
+    let direction = Vec3::new(21621.113345076585, -31007.694140711843, -8591.657224116916);
+    let ray = Ray::new(Point3::new(0.0, 0.5, 1.125), direction).with_range(0.0, 0.0);
+    laws::check(&prism, &oracle, &ray).unwrap();
+}
+
+#[test]
 fn rays_through_joints_and_rims_go_in_as_often_as_out() {
     let mut through = 0;
     for (seed, (prism, oracle)) in cases().iter().enumerate() {

@@ -319,14 +319,19 @@ fn parameter(g: &Poly, num: &Poly, den: &Poly, root: &RealRoot) -> Option<(RealR
             sum(&sum(&first, &second), &times(&e(0, 2), &minor(1, 2, 0, 1)))
         }
     };
-    // num(u) / den(u), to many digits: a quotient of integers.
-    let u = root.about(2000);
-    let (n, d) = (value(num, &u), value(den, &u));
-    let t = real_roots(&[-n, d]).pop()?.about(1400);
-    let gap = |r: &RealRoot| (&r.about(1400) - &t).abs();
-    let found = real_roots(&resultant).into_iter().min_by(|a, b| (&gap(a) - &gap(b)).sign())?;
-    let relative = gap(&found).to_f64() / t.clone().abs().to_f64().max(1e-250);
-    assert!(relative < 1e-60, "the witness does not agree with itself");
+    // num(u) / den(u), a quotient of integers, with ever more digits of u until one of the resultant's
+    // roots is that near: a small den(u) magnifies the error of u.
+    let candidates = real_roots(&resultant);
+    let found = [2000, 4000, 8000, 16000].into_iter().find_map(|digits| {
+        let u = root.about(digits);
+        let (n, d) = (value(num, &u), value(den, &u));
+        let t = real_roots(&[-n, d]).pop()?.about(1400);
+        let gap = |r: &RealRoot| (&r.about(1400) - &t).abs();
+        let nearest = candidates.iter().min_by(|a, b| (&gap(a) - &gap(b)).sign())?;
+        let relative = gap(nearest).to_f64() / t.clone().abs().to_f64().max(1e-250);
+        (relative < 1e-60).then(|| nearest.clone())
+    });
+    let found = found.expect("the witness does not agree with itself");
     let about = found.about(BITS);
     Some((found, about))
 }
