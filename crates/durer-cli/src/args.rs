@@ -68,7 +68,7 @@ pub(crate) struct SceneArgs {
     /// subdivision.
     #[arg(long, value_name = "SCHEME")]
     pub(crate) subdivide: Option<Subdivide>,
-    /// The noise of textures. [default: the learned one where there is one]
+    /// The noise of textures and functions. [default: the learned one where there is one]
     #[arg(long, value_enum, value_name = "WHICH")]
     pub(crate) noise: Option<NoiseChoice>,
     /// The folder of the files that the scene writes with `#fopen`. [default: the scene's own]

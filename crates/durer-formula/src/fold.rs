@@ -129,9 +129,9 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
         Op::Pow(a, b) => sure(constant(a)?.pow(constant(b)?))?,
         Op::Atan2(a, b) => sure(constant(a)?.atan2(constant(b)?))?,
         Op::Rem(a, b) => sure(constant(a)?.remainder(constant(b)?))?,
-        Op::Noise([a, b, c]) => {
+        Op::Noise(table, [a, b, c]) => {
             let p = [constant(a)?, constant(b)?, constant(c)?].map(I8::splat);
-            I8::noise(p.each_ref()).lane(0)
+            I8::noise(table, p.each_ref()).lane(0)
         }
         Op::Compare(c, a, b) => {
             let (a, b) = (constant(a)?, constant(b)?);

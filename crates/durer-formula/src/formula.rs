@@ -1,6 +1,7 @@
 //! A formula is a list of steps, each of which uses the results of earlier ones.
 
 use super::fold;
+use durer_math::noise::NoiseTable;
 use durer_math::{Comparison, Function, Interval};
 use std::collections::HashMap;
 
@@ -61,8 +62,8 @@ pub enum Op {
     Atan2(NodeId, NodeId),
     /// The remainder of `a` divided by `b`, with the sign of `a`.
     Rem(NodeId, NodeId),
-    /// Noise at a point of space.
-    Noise([NodeId; 3]),
+    /// Noise at a point of space: durer's own, or that of a table.
+    Noise(Option<&'static NoiseTable>, [NodeId; 3]),
     /// 1 or 0.
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
@@ -98,7 +99,7 @@ impl Op {
             Self::Pow(a, b) => Self::Pow(f(a), f(b)),
             Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
             Self::Rem(a, b) => Self::Rem(f(a), f(b)),
-            Self::Noise(p) => Self::Noise(p.map(f)),
+            Self::Noise(table, p) => Self::Noise(table, p.map(f)),
             Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
             Self::Select(all) => Self::Select(all.map(f)),
             Self::Joined(all) => Self::Joined(all.map(f)),
@@ -132,7 +133,7 @@ impl Op {
                 f(a);
                 f(b);
             }
-            Self::Noise(p) | Self::Joined(p) => p.into_iter().for_each(f),
+            Self::Noise(_, p) | Self::Joined(p) => p.into_iter().for_each(f),
             Self::Select(all) => all.into_iter().for_each(f),
         }
     }
@@ -181,7 +182,10 @@ impl Op {
                 (18, pack(a, b), pack(c, d), 0)
             }
             Self::Settled(a) => (19, u64::from(a.0), 0, 0),
-            Self::Noise([a, b, c]) => (20, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
+            Self::Noise(table, [a, b, c]) => {
+                let table = table.map_or(0, |table| core::ptr::from_ref(table).addr() as u64);
+                (20, u64::from(a.0) << 32 | u64::from(b.0), u64::from(c.0), table)
+            }
             Self::Joined([a, b, c]) => (21, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
             Self::MulWhole(a, b) => two(22, a, b),
             Self::Times(k, a) => (23, k.to_bits(), u64::from(a.0), 0),
@@ -209,6 +213,17 @@ impl Formula {
     /// How many numbers it takes.
     pub fn inputs(&self) -> u32 {
         self.inputs
+    }
+
+    /// The same formula with the noise of a table in place of durer's own.
+    #[must_use]
+    pub fn with_noise(mut self, table: Option<&'static NoiseTable>) -> Self {
+        for op in &mut self.ops {
+            if let Op::Noise(of @ None, _) = op {
+                *of = table;
+            }
+        }
+        self
     }
 
     /// Its steps, each of which uses only earlier ones.

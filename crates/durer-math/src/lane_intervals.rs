@@ -11,6 +11,7 @@
 
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
+use crate::noise::NoiseTable;
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, noise};
 
@@ -402,8 +403,8 @@ impl Number for I8 {
     }
 
     #[inline(always)]
-    fn noise(p: [&Self; 3]) -> Self {
-        noise::bounds(p)
+    fn noise(table: Option<&NoiseTable>, p: [&Self; 3]) -> Self {
+        noise::bounds(table, p)
     }
 
     #[inline(always)]
@@ -478,8 +479,8 @@ impl Number for I8 {
 
 impl Sloped for I8 {
     #[inline(always)]
-    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
-        noise::slopes(p)
+    fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        noise::slopes(table, p)
     }
 }
 

@@ -4,6 +4,7 @@
 //! Each function has the error of its kernel (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`),
 //! or is that of f64, lane by lane.
 
+use crate::noise::NoiseTable;
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
 
@@ -133,8 +134,8 @@ impl Number for F8 {
         (by_itself(Function::Sin, sine), by_itself(Function::Cos, cosine))
     }
     #[inline(always)]
-    fn noise(p: [&Self; 3]) -> Self {
-        noise::values(p)
+    fn noise(table: Option<&NoiseTable>, p: [&Self; 3]) -> Self {
+        noise::values(table, p)
     }
     #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
@@ -166,8 +167,8 @@ impl Number for F8 {
 
 impl Sloped for F8 {
     #[inline(always)]
-    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
-        noise::slants(p)
+    fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        noise::slants(table, p)
     }
 }
 

@@ -5,6 +5,7 @@
 //! its values on boxes, for its slope along a ray. [`Number`] lists the operations of such
 //! formulas; every type with these operations can evaluate all of them.
 
+use crate::noise::NoiseTable;
 use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
 /// The number types on which formulas are evaluated. Operations take references: the types may be
@@ -58,7 +59,7 @@ pub trait Number: Copy + Joined {
         (Self::function(Function::Sin, a), Self::function(Function::Cos, a))
     }
     /// Noise at a point of space.
-    fn noise(p: [&Self; 3]) -> Self;
+    fn noise(table: Option<&NoiseTable>, p: [&Self; 3]) -> Self;
     /// The result of a comparison, 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
     /// One of three by the sign of `c`: below, at or above zero. If two of them are the same object
@@ -73,7 +74,7 @@ pub trait Number: Copy + Joined {
 /// A number type that provides the slopes of all functions, so that a [`Dual`] can be made of it.
 pub trait Sloped: Number {
     /// Noise at a point of space, and its derivatives along the three axes.
-    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]);
+    fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]);
 }
 
 /// The functions of one number.
@@ -231,8 +232,8 @@ impl Number for f64 {
         value
     }
     #[inline(always)]
-    fn noise(p: [&Self; 3]) -> Self {
-        noise::values(F8::splats(p.map(|x| *x)).each_ref()).0[0]
+    fn noise(table: Option<&NoiseTable>, p: [&Self; 3]) -> Self {
+        noise::values(table, F8::splats(p.map(|x| *x)).each_ref()).0[0]
     }
     #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
@@ -265,8 +266,8 @@ impl Number for f64 {
 
 impl Sloped for f64 {
     #[inline(always)]
-    fn noise_and_slopes(p: [&Self; 3]) -> (Self, [Self; 3]) {
-        let (v, d) = noise::slants(F8::splats(p.map(|x| *x)).each_ref());
+    fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        let (v, d) = noise::slants(table, F8::splats(p.map(|x| *x)).each_ref());
         (v.0[0], d.map(|d| d.0[0]))
     }
 }
@@ -611,8 +612,8 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
         Self::chain(v, &slope, a)
     }
     #[inline(always)]
-    fn noise([x, y, z]: [&Self; 3]) -> Self {
-        let (v, [dx, dy, dz]) = T::noise_and_slopes([&x.v, &y.v, &z.v]);
+    fn noise(table: Option<&NoiseTable>, [x, y, z]: [&Self; 3]) -> Self {
+        let (v, [dx, dy, dz]) = T::noise_and_slopes(table, [&x.v, &y.v, &z.v]);
         let d = D::sum(&D::scaled(&dx, &x.d), &D::scaled(&dy, &y.d));
         Self { v, d: D::sum(&d, &D::scaled(&dz, &z.d)) }
     }

@@ -238,7 +238,8 @@ impl Parser<'_> {
         self.language.noise_is_used |= number == formulas::PLAIN_NOISE;
         match formulas::internal(number, self.language.noise_generator()) {
             Ok((formula, noisy)) => {
-                let mut called = Called::from(formula);
+                let table = self.noise_tables().map(|[scalar, ..]| scalar);
+                let mut called = Called::from(formula.with_noise(table));
                 called.noisy = noisy;
                 Ok(called)
             }

@@ -13,12 +13,13 @@
 //! ```
 //!
 //! `N` is the noise of the chosen generator. `n` is the underlying noise, around zero; `n'` and
-//! `n''` are `n` at shifted points. For the first generator, `m` is `N`. For the second, `m` is
+//! `n''` are the other components of learned noise, or `n` at shifted points. For the first generator, `m` is `N`. For the second, `m` is
 //! `2 N - 1/2`, clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the
 //! turbulence, and `a` is agate's own. All this was found from POV-Ray's values, with POV-Ray's own
 //! noise, and agrees with them to rounding.
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_math::noise::NoiseTable;
 use durer_math::scale::pow2;
 use durer_math::{F8, elementary, noise};
 
@@ -42,7 +43,7 @@ pub(crate) fn vector_turbulence(
             None => std::array::from_fn(|axis| {
                 let shift = axis.checked_sub(1).map_or([0.0; 3], |i| ELSEWHERE[i]);
                 let [x, y, z]: [F8; 3] = std::array::from_fn(|i| F8::splat(at[i] + shift[i]));
-                noise::values([&x, &y, &z]).0[0]
+                noise::values(None, [&x, &y, &z]).0[0]
             }),
         };
         for (sum, value) in sum.iter_mut().zip(values) {
@@ -78,11 +79,21 @@ pub(crate) struct Turbulence {
     pub(crate) agate: f64,
     /// The noise generator.
     pub(crate) generator: f64,
+    /// The three components of the noise, if it is not durer's own.
+    pub(crate) tables: Option<[&'static NoiseTable; 3]>,
 }
 
 impl Default for Turbulence {
     fn default() -> Self {
-        Self { amount: [0.0; 3], octaves: 6.0, lambda: 2.0, omega: 0.5, agate: 1.0, generator: 2.0 }
+        Self {
+            amount: [0.0; 3],
+            octaves: 6.0,
+            lambda: 2.0,
+            omega: 0.5,
+            agate: 1.0,
+            generator: 2.0,
+            tables: None,
+        }
     }
 }
 
@@ -166,7 +177,8 @@ impl Draft<'_> {
     }
 
     fn text(&mut self, text: &'static str, p: [NodeId; 3], parameters: &[NodeId]) -> Made<NodeId> {
-        let formula: Formula = formulas::on_paper(text, parameters.len() as u32)?;
+        let table = self.turbulence.tables.map(|[scalar, ..]| scalar);
+        let formula: Formula = formulas::on_paper(text, parameters.len() as u32)?.with_noise(table);
         let made: Result<NodeId, FormulaError> = self.b.call(&formula, &[&p, parameters].concat());
         made.ok()
     }
@@ -211,13 +223,16 @@ impl Draft<'_> {
     fn component(&mut self, p: [NodeId; 3], axis: usize) -> Made<NodeId> {
         let turbulence = self.turbulence;
         self.sum(p, (0..turbulence.octaves()).map(|k| turbulence.octave(k)), |draft, mut p| {
+            if let Some(tables) = turbulence.tables {
+                return draft.push(Op::Noise(Some(tables[axis]), p));
+            }
             if let Some(offset) = axis.checked_sub(1).map(|i| ELSEWHERE[i]) {
                 for (x, offset) in p.iter_mut().zip(offset) {
                     let offset = draft.number(offset)?;
                     *x = draft.push(Op::Add(*x, offset))?;
                 }
             }
-            draft.push(Op::Noise(p))
+            draft.push(Op::Noise(None, p))
         })
     }
 

@@ -166,7 +166,7 @@ pub(crate) fn lacking(place: Place) -> Box<Error> {
 
 /// Whether the formula depends on noise.
 pub(crate) fn has_noise(formula: &Formula) -> bool {
-    formula.ops().iter().any(|op| matches!(op, Op::Noise(_)))
+    formula.ops().iter().any(|op| matches!(op, Op::Noise(..)))
 }
 
 /// The value of a pattern at a point in its own space; `None` if no formula is known.

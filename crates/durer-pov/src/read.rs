@@ -34,7 +34,7 @@ pub struct ReadOptions {
     /// Whether a scene is refused that uses a feature which would be left out of the picture:
     /// `radiosity`, `photons`, `media`, `subsurface`.
     pub strict: bool,
-    /// The noise of textures and of `vturbulence`, if it is not durer's own.
+    /// The noise of textures and functions, if it is not durer's own.
     pub noise: Option<std::sync::Arc<durer_scene::LearnedNoise>>,
     /// The folder of the files that the scene writes; `None` for the scene's own.
     pub write_folder: Option<PathBuf>,

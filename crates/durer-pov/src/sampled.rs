@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId};
 use durer_math::Interval;
+use durer_math::noise::NoiseTable;
 use durer_render::FunctionValues;
 use durer_scene::{LearnedNoise, SampledFunction, Settings, TextureSample, TextureSource};
 
@@ -145,6 +146,11 @@ impl Parser<'_> {
     /// The noise and the settings of the scene's textures, as far as the scene is read.
     pub(crate) fn texture_context(&self) -> TextureContext<'_> {
         TextureContext { noise: self.options.noise.as_ref(), waves: self.scene.globals.number_of_waves }
+    }
+
+    /// The components of the noise in formulas, if it is not durer's own.
+    pub(crate) fn noise_tables(&self) -> Option<[&'static NoiseTable; 3]> {
+        self.options.noise.as_ref().map(|noise| noise.components_in_formulas())
     }
 }
 

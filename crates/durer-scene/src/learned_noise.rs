@@ -9,6 +9,7 @@
 //! `b`, `b + 4` and `b + 8`. The table is not part of durer: it is measured from an installed
 //! POV-Ray.
 
+use durer_math::noise::NoiseTable;
 use durer_math::{F8, Point3, Vec3};
 
 /// The length of the table.
@@ -24,6 +25,9 @@ pub struct LearnedNoise {
     table: Box<[f64]>,
     /// The permutation, twice.
     order: Box<[u16]>,
+    /// The same noise for formulas: the scalar noise, which is the first component of the vector
+    /// noise, and the other two.
+    components: [&'static NoiseTable; 3],
 }
 
 impl core::fmt::Debug for LearnedNoise {
@@ -39,10 +43,29 @@ impl LearnedNoise {
     /// The length of the table.
     pub const TABLE: usize = TABLE;
 
-    /// The noise with a table of [`LearnedNoise::TABLE`] finite numbers; `None` for any other.
+    /// The noise with a table of [`LearnedNoise::TABLE`] numbers, none of them as great as a
+    /// million; `None` for any other.
     pub fn new(table: &[f64]) -> Option<Self> {
-        let fits = table.len() == TABLE && table.iter().all(|v| v.is_finite());
-        fits.then(|| Self { table: table.into(), order: order() })
+        if table.len() != TABLE {
+            return None;
+        }
+        let order = order();
+        let once: &[u16; PERIOD] = order.first_chunk()?;
+        let component = |shift: usize| {
+            let points = core::array::from_fn(|hash| {
+                let of = |i: usize| table[hash + shift + i];
+                [0.5 * of(0), of(1), of(2), of(3)]
+            });
+            NoiseTable::shared(&points, once)
+        };
+        let components = [component(0)?, component(4)?, component(8)?];
+        Some(Self { table: table.into(), order, components })
+    }
+
+    /// The noise in formulas: the scalar noise, which is the first component of the vector noise,
+    /// and the other two.
+    pub fn components_in_formulas(&self) -> [&'static NoiseTable; 3] {
+        self.components
     }
 
     /// The hash of the lattice point `(x, 0, 0)`, by which a table is measured.
@@ -158,6 +181,27 @@ mod tests {
             let wanted = [h, h + 4, h + 8].map(|i| noise.table[i] / 2.0);
             assert_eq!(v.to_array(), wanted);
         }
+    }
+
+    #[test]
+    fn formulas_have_the_same_noise() {
+        let noise = noise();
+        let [scalar, ..] = noise.components_in_formulas();
+        for k in 0..4096 {
+            let [x, y, z] = [0.37, -0.21, 17.11].map(|step| step * f64::from(k) - 1000.0);
+            let p = Point3::new(x, y, z);
+            let lanes = [x, y, z].map(F8::splat);
+            let in_formulas = |table| durer_math::noise::values(Some(table), lanes.each_ref()).0[0];
+            // Both are within 80 roundings.
+            let near = |a: f64, b: f64| (a - b).abs() <= 160.0 * durer_math::U;
+            assert!(near(in_formulas(scalar), noise.value(p)), "{p:?}");
+            let vector = noise.vector(p).to_array();
+            for (table, wanted) in noise.components_in_formulas().into_iter().zip(vector) {
+                assert!(near(in_formulas(table), wanted), "{p:?}");
+            }
+        }
+        // One table, however often it is read.
+        assert_eq!(noise, self::noise());
     }
 
     #[test]

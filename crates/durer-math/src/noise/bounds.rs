@@ -36,7 +36,7 @@
 //! Boxes so small that such a rounding is significant beside the variation of the value are also
 //! treated as small ones.
 
-use super::{APART, Along, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell, number};
+use super::{Along, Lattice, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell};
 use crate::real::{Eight, Real, less, more, roundings};
 use crate::{F8, I8, Isa, M8};
 
@@ -57,26 +57,9 @@ pub(super) const BEND: f64 = 24.3;
 /// Bound on the second derivatives along two axes.
 pub(super) const TWIST: f64 = 12.45;
 
-/// Bounds of noise on eight boxes.
-#[inline(never)]
-pub(crate) fn bounds(p: [&I8; 3]) -> I8 {
-    Isa::detect().run_in_lanes(
-        #[inline(always)]
-        || bounds_in_cell(p).0,
-    )
-}
-
 /// Bounds on noise and its derivatives on eight boxes.
-#[inline(never)]
-pub(crate) fn slopes(p: [&I8; 3]) -> (I8, [I8; 3]) {
-    Isa::detect().run_in_lanes(
-        #[inline(always)]
-        || bounds_in_cell(p),
-    )
-}
-
 #[inline(always)]
-fn bounds_in_cell(p: [&I8; 3]) -> (I8, [I8; 3]) {
+pub(super) fn bounds_in_cell<L: Lattice>(lattice: L, p: [&I8; 3]) -> (I8, [I8; 3]) {
     /// The bounds for small boxes suffice if all sides are as short as this.
     const SMALL: f64 = 1.0 / 128.0;
     /// Half of this times a derivative of 1 is nearly six times [`VALUE_MARGIN`], in f32.
@@ -85,21 +68,21 @@ fn bounds_in_cell(p: [&I8; 3]) -> (I8, [I8; 3]) {
     for axis in p {
         side = side.max(axis.hi - axis.lo);
     }
-    let mut out = nothing(p);
+    let mut out = nothing(lattice.size(), p);
     let mut around_middle = side.le(F8::splat(SMALL));
     if !around_middle.all() {
-        cellwise(p, &mut out);
+        cellwise(lattice, p, &mut out);
         around_middle = side.le(F8::splat(FINE));
     }
     if around_middle.any() {
-        around(p, around_middle, &mut out);
+        around(lattice, p, around_middle, &mut out);
     }
     out
 }
 
 /// Narrows the bounds of some lanes by those for small boxes, which hold over any number of cells.
 #[inline(always)]
-fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
+fn around<L: Lattice>(lattice: L, p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
     let (mut m, mut r) = ([F8::ZERO; 3], [F8::ZERO; 3]);
     for axis in 0..3 {
         for i in 0..8 {
@@ -110,20 +93,24 @@ fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
             r[axis].0[i] = if before > after { before } else { after };
         }
     }
-    let near = Sum::at([&m[0], &m[1], &m[2]]);
-    let (slope_error, up) = (roundings::<f64>(SLOPE_ROUNDINGS), more::<f64>(UP));
+    let near = Sum::at(lattice, [&m[0], &m[1], &m[2]]);
+    let size = lattice.size();
+    let (slope_error, up) = (roundings::<f64>(SLOPE_ROUNDINGS) * size, more::<f64>(UP));
+    let (bend, twist) = (BEND * size, TWIST * size);
+    let (value_margin, slope_margin) =
+        (roundings::<f64>(VALUE_MARGIN) * size, roundings::<f64>(SLOPE_MARGIN) * size);
     let others = lanes.select(F8::ZERO, F8::splat(f64::INFINITY));
     for i in 0..8 {
         let [a, b, c] = [r[0].0[i], r[1].0[i], r[2].0[i]];
         let [da, db, dc] = [near.d[0].0[i].abs(), near.d[1].0[i].abs(), near.d[2].0[i].abs()];
         let all = a + b + c;
         let along = da * a + db * b + dc * c + slope_error * all;
-        let bent = (a * a + b * b + c * c) * ((BEND - TWIST) * 0.5) + all * all * (TWIST * 0.5);
-        let reach = (along + bent + roundings::<f64>(VALUE_MARGIN)) * up + others.0[i];
+        let bent = (a * a + b * b + c * c) * ((bend - twist) * 0.5) + all * all * (twist * 0.5);
+        let reach = (along + bent + value_margin) * up + others.0[i];
         narrow(&mut out.0, i, near.v.0[i] - reach, near.v.0[i] + reach);
         for (axis, r) in r.iter().enumerate() {
-            let bent = r.0[i] * (BEND - TWIST) + all * TWIST;
-            let reach = (bent + roundings::<f64>(SLOPE_MARGIN)) * up + others.0[i];
+            let bent = r.0[i] * (bend - twist) + all * twist;
+            let reach = (bent + slope_margin) * up + others.0[i];
             let slope = near.d[axis].0[i];
             narrow(&mut out.1[axis], i, slope - reach, slope + reach);
         }
@@ -132,9 +119,9 @@ fn around(p: [&I8; 3], lanes: M8, out: &mut (I8, [I8; 3])) {
 
 /// Bounds that hold everywhere.
 #[inline(always)]
-fn nothing(p: [&I8; 3]) -> (I8, [I8; 3]) {
-    let v = I8::new(F8::splat(-RANGE), F8::splat(RANGE)).said(p[0], p[1]).said(p[2], p[2]);
-    let d = I8::new(F8::splat(-SLOPE), F8::splat(SLOPE)).said(&v, &v);
+fn nothing(size: f64, p: [&I8; 3]) -> (I8, [I8; 3]) {
+    let v = I8::new(F8::splat(-RANGE * size), F8::splat(RANGE * size)).said(p[0], p[1]).said(p[2], p[2]);
+    let d = I8::new(F8::splat(-SLOPE * size), F8::splat(SLOPE * size)).said(&v, &v);
     (v, [d; 3])
 }
 
@@ -148,7 +135,7 @@ fn narrow(x: &mut I8, i: usize, lo: f64, hi: f64) {
 /// The part of a box along an axis that is in one cell.
 #[derive(Clone, Copy)]
 struct Part {
-    /// The contribution of the cell's lower corner to the hash.
+    /// The number of the cell's lower corner.
     corner: [u32; 8],
     /// The part's interval in the cell.
     lo: F8,
@@ -167,12 +154,12 @@ struct Parts {
 
 impl Parts {
     #[inline(always)]
-    fn new(x: &I8, apart: u32) -> Self {
+    fn new<L: Lattice>(lattice: L, x: &I8, axis: usize) -> Self {
         let mut first = Part { corner: [0; 8], lo: F8::ZERO, hi: F8::ZERO };
         let mut rest = F8::ZERO;
         for i in 0..8 {
             let whole = x.lo.0[i].floor();
-            first.corner[i] = number(whole).wrapping_mul(apart);
+            first.corner[i] = lattice.cell(whole, axis);
             first.lo.0[i] = x.lo.0[i] - whole;
             let hi = x.hi.0[i] - whole;
             first.hi.0[i] = if hi < 1.0 { hi } else { 1.0 };
@@ -184,10 +171,10 @@ impl Parts {
 
     /// The part of a lane in its first or second cell.
     #[inline(always)]
-    fn part(&self, i: usize, second: bool, apart: u32) -> (u32, f64, f64) {
+    fn part(&self, i: usize, second: bool, step: u32) -> (u32, f64, f64) {
         let corner = self.first.corner[i];
         if second {
-            (corner.wrapping_add(apart), 0.0, self.rest.0[i])
+            (corner.wrapping_add(step), 0.0, self.rest.0[i])
         } else {
             (corner, self.first.lo.0[i], self.first.hi.0[i])
         }
@@ -197,16 +184,16 @@ impl Parts {
 /// Narrows bounds by those on the parts in single cells, except for boxes of more than two cells
 /// along an axis.
 #[inline(always)]
-fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
-    let parts = [Parts::new(p[0], APART[0]), Parts::new(p[1], APART[1]), Parts::new(p[2], APART[2])];
+fn cellwise<L: Lattice>(lattice: L, p: [&I8; 3], out: &mut (I8, [I8; 3])) {
+    let parts = [0, 1, 2].map(|axis| Parts::new(lattice, p[axis], axis));
     let more = parts[0].more | parts[1].more | parts[2].more;
     if more.all() {
         return;
     }
     let two = [parts[0].two & !more, parts[1].two & !more, parts[2].two & !more];
-    let mut held = whole(&[parts[0].first, parts[1].first, parts[2].first]);
+    let mut held = whole(lattice, &[parts[0].first, parts[1].first, parts[2].first]);
     if (two[0] | two[1] | two[2]).any() {
-        beside(&parts, &two, &mut held);
+        beside(lattice, &parts, &two, &mut held);
     }
     let (v, d) = held;
     for i in (!more).lanes() {
@@ -219,7 +206,7 @@ fn cellwise(p: [&I8; 3], out: &mut (I8, [I8; 3])) {
 
 /// Widens bounds by those on the parts in other cells than the first, eight parts at a time.
 #[inline(always)]
-fn beside(parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
+fn beside<L: Lattice>(lattice: L, parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
     let [x, y, z] = [two[0].bits(), two[1].bits(), two[2].bits()];
     let mut eight = [parts[0].first, parts[1].first, parts[2].first];
     let (mut of, mut count) = ([0; 8], 0);
@@ -227,20 +214,20 @@ fn beside(parts: &[Parts; 3], two: &[M8; 3], held: &mut (Ends, [Ends; 3])) {
         let needs = |axis: u8, lanes: u8| if which >> axis & 1 == 1 { lanes } else { 0xff };
         for i in crate::lanes::set_bits(needs(0, x) & needs(1, y) & needs(2, z)) {
             for axis in 0..3 {
-                let (corner, lo, hi) = parts[axis].part(i, which >> axis & 1 == 1, APART[axis]);
+                let (corner, lo, hi) = parts[axis].part(i, which >> axis & 1 == 1, L::STEP[axis]);
                 let part = &mut eight[axis];
                 (part.corner[count], part.lo.0[count], part.hi.0[count]) = (corner, lo, hi);
             }
             of[count] = i;
             count += 1;
             if count == 8 {
-                widen(held, &of, &whole(&eight));
+                widen(held, &of, &whole(lattice, &eight));
                 count = 0;
             }
         }
     }
     if count > 0 {
-        widen(held, &of[..count], &whole(&eight));
+        widen(held, &of[..count], &whole(lattice, &eight));
     }
 }
 
@@ -291,7 +278,7 @@ struct Within {
 
 impl Within {
     #[inline(always)]
-    fn new(part: &Part, apart: u32) -> (Along<f32>, Self) {
+    fn new(part: &Part, step: u32) -> (Along<f32>, Self) {
         let (mut lo, mut hi) = (Eight::ZERO, Eight::ZERO);
         for i in 0..8 {
             // Rounded outward to f32, but within the cell.
@@ -302,31 +289,33 @@ impl Within {
         }
         let middle = lo * 0.5 + hi * 0.5;
         let half = hi * 0.5 - lo * 0.5;
-        let (a, b) = (Along::new(part.corner, &lo, apart), Along::new(part.corner, &hi, apart));
+        let (a, b) = (Along::new(part.corner, &lo, step), Along::new(part.corner, &hi, step));
         let mut slope = Ends { lo: a.slope.min(b.slope), hi: a.slope.max(b.slope) };
         for i in 0..8 {
             let steepest = (lo.0[i] < 0.5) & (hi.0[i] > 0.5);
             slope.hi.0[i] = if steepest { 1.5 } else { slope.hi.0[i] };
         }
-        (Along::new(part.corner, &middle, apart), Self { half, f: Ends { lo: a.f, hi: b.f }, slope })
+        (Along::new(part.corner, &middle, step), Self { half, f: Ends { lo: a.f, hi: b.f }, slope })
     }
 }
 
 /// Bounds on eight boxes, each of which is in one cell: on the derivatives by the blends' extremes,
 /// on the value by its value in the middle and the derivatives.
 #[inline(never)]
-fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
+fn whole<L: Lattice>(lattice: L, parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
     Isa::detect().run_in_lanes(
         #[inline(always)]
         || {
-            let (x, u) = Within::new(&parts[0], APART[0]);
-            let (y, v) = Within::new(&parts[1], APART[1]);
-            let (z, w) = Within::new(&parts[2], APART[2]);
+            let (x, u) = Within::new(&parts[0], L::STEP[0]);
+            let (y, v) = Within::new(&parts[1], L::STEP[1]);
+            let (z, w) = Within::new(&parts[2], L::STEP[2]);
             let (along, within) = ([x, y, z], [u, v, w]);
+            // Rounded up.
+            let size = lattice.size() as f32 * more::<f32>(2.0);
             if are_one_cell(&along) {
-                within_corners(&along, &within, &Sum::corners::<true>(&along))
+                within_corners(size, &along, &within, &Sum::corners::<true, L>(lattice, &along))
             } else {
-                within_corners(&along, &within, &Sum::corners::<false>(&along))
+                within_corners(size, &along, &within, &Sum::corners::<false, L>(lattice, &along))
             }
         },
     )
@@ -334,16 +323,17 @@ fn whole(parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
 
 #[inline(always)]
 fn within_corners(
+    size: f32,
     along: &[Along<f32>; 3],
     within: &[Within; 3],
     corners: &[Sum<f32>; 8],
 ) -> (Ends, [Ends; 3]) {
     let d = [
-        slope(within, corners, [0, 1, 2]),
-        slope(within, corners, [1, 0, 2]),
-        slope(within, corners, [2, 0, 1]),
+        slope(size, within, corners, [0, 1, 2]),
+        slope(size, within, corners, [1, 0, 2]),
+        slope(size, within, corners, [2, 0, 1]),
     ];
-    let mut reach = Eight::splat(roundings(VALUE_MARGIN));
+    let mut reach = Eight::splat(roundings::<f32>(VALUE_MARGIN) * size);
     for (d, within) in d.iter().zip(within) {
         reach = d.hi.max(-d.lo).mul_add(within.half, reach);
     }
@@ -353,7 +343,12 @@ fn within_corners(
 
 /// Bounds on the derivative along the first of three axes.
 #[inline(always)]
-fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [usize; 3]) -> Ends {
+fn slope(
+    size: f32,
+    within: &[Within; 3],
+    corners: &[Sum<f32>; 8],
+    [axis, second, third]: [usize; 3],
+) -> Ends {
     let (upper, b, c) = (1 << axis, 1 << second, 1 << third);
     let near = Ends::blended(
         &within[second].f,
@@ -366,7 +361,7 @@ fn slope(within: &[Within; 3], corners: &[Sum<f32>; 8], [axis, second, third]: [
         &pair(within, axis, &corners[b | c], &corners[b | c | upper]),
     );
     let Ends { lo, hi } = Ends::blended(&within[third].f, &near, &far);
-    let margin: f32 = roundings(SLOPE_MARGIN);
+    let margin = roundings::<f32>(SLOPE_MARGIN) * size;
     Ends { lo: lo - margin, hi: hi + margin }
 }
 

@@ -19,35 +19,97 @@
 //! most 7.04, its rounding of `4 u` and the sum's of `2 u`), and to a derivative at most `75 u`, or
 //! `180 u` along its own axis. With the effect of the coordinates' errors these are below
 //! `VALUE_ROUNDINGS` and `SLOPE_ROUNDINGS`.
+//!
+//! **Tables.** A [`NoiseTable`] has another hash and other values and slopes `T`, of at most
+//! `|v| <= size/2` and `|g| <= size`; the bounds are proportional to that size. In f32 the
+//! coefficients of a corner are rounded, too: `4 u` in its sum, which adds `4 u` to a value,
+//! `2 * 4 u * 3/2 = 12 u` and the slope's own `u` to a derivative. That is within the two bounds.
 
 mod bounds;
+mod table;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bounds::{bounds, slopes};
+pub use table::NoiseTable;
 
 use crate::real::{Eight, Real, real};
-use crate::{F8, Isa};
+use crate::{F8, I8, Isa};
 
 /// Bound on the rounding errors of a value, in roundings of 1.
 const VALUE_ROUNDINGS: f32 = 80.0;
 /// Bound on the rounding errors of a derivative, in roundings of 1.
 const SLOPE_ROUNDINGS: f32 = 320.0;
 
-/// Primes that distinguish the three coordinates in the hash: those of Y. Collet's xxHash.
-const APART: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
+/// The values and slopes of the lattice's points.
+trait Lattice: Copy {
+    /// What a step along an axis adds to a cell's number.
+    const STEP: [u32; 3];
+    /// The factor of all bounds.
+    fn size(self) -> f64;
+    /// The number of a cell along an axis.
+    fn cell(self, whole: f64, axis: usize) -> u32;
+    /// The hash of a point, from the numbers along the axes.
+    fn hash(self, cells: [u32; 3]) -> u32;
+    /// Values and slopes of eight points of the lattice.
+    fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T>;
+}
+
+/// durer's own noise.
+#[derive(Clone, Copy)]
+struct Own;
+
+impl Lattice for Own {
+    /// Primes that distinguish the three coordinates in the hash: those of Y. Collet's xxHash.
+    const STEP: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
+
+    #[inline(always)]
+    fn size(self) -> f64 {
+        1.0
+    }
+
+    #[inline(always)]
+    fn cell(self, whole: f64, axis: usize) -> u32 {
+        number(whole).wrapping_mul(Self::STEP[axis])
+    }
+
+    #[inline(always)]
+    fn hash(self, [x, y, z]: [u32; 3]) -> u32 {
+        x ^ y ^ z
+    }
+
+    #[inline(always)]
+    fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T> {
+        let (value, slope) = (real::<T>(1.0 + 132.0 / 256.0), real::<T>(3.0 - 1.0 / 256.0));
+        let mut out = Sum { v: Eight::ZERO, d: [Eight::ZERO; 3] };
+        for (i, &hash) in hash.iter().enumerate() {
+            let bits = mixed(hash);
+            out.v.0[i] = T::eight(bits, real(1.0)) - value;
+            out.d[0].0[i] = T::eight(bits >> 8, real(2.0)) - slope;
+            out.d[1].0[i] = T::eight(bits >> 16, real(2.0)) - slope;
+            out.d[2].0[i] = T::eight(bits >> 24, real(2.0)) - slope;
+        }
+        out
+    }
+}
 
 /// A number type for the values of lattice points.
 trait Grain: Real {
     /// A number with the lowest eight bits as its fraction: from 1 to 2 by 1/256, or from 2 to 4 by
     /// 1/128.
     fn eight(bits: u32, first: Self) -> Self;
+    /// The nearest number of this type.
+    fn nearest(x: f64) -> Self;
 }
 
 impl Grain for f64 {
     #[inline(always)]
     fn eight(bits: u32, first: Self) -> Self {
         Self::from_bits(first.to_bits() | u64::from(bits & 0xff) << 44)
+    }
+
+    #[inline(always)]
+    fn nearest(x: f64) -> Self {
+        x
     }
 }
 
@@ -56,11 +118,16 @@ impl Grain for f32 {
     fn eight(bits: u32, first: Self) -> Self {
         Self::from_bits(first.to_bits() | (bits & 0xff) << 15)
     }
+
+    #[inline(always)]
+    fn nearest(x: f64) -> Self {
+        x as f32
+    }
 }
 
 /// A coordinate: its cell, and its position there.
 struct Along<T> {
-    /// The contribution of the cell's two corners to the hash.
+    /// The numbers of the cell's two corners.
     corner: [[u32; 8]; 2],
     /// The distances from these corners.
     from: [Eight<T>; 2],
@@ -70,13 +137,13 @@ struct Along<T> {
 }
 
 impl<T: Grain> Along<T> {
-    /// The coordinates `t` from 0 to 1 in cells whose lower corners contribute `corner`.
+    /// The coordinates `t` from 0 to 1 in cells whose lower corners have these numbers.
     #[inline(always)]
-    fn new(corner: [u32; 8], t: &Eight<T>, apart: u32) -> Self {
+    fn new(corner: [u32; 8], t: &Eight<T>, step: u32) -> Self {
         let mut out =
             Self { corner: [corner; 2], from: [*t, *t - real::<T>(1.0)], f: Eight::ZERO, slope: Eight::ZERO };
         for (i, &corner) in corner.iter().enumerate() {
-            out.corner[1][i] = corner.wrapping_add(apart);
+            out.corner[1][i] = corner.wrapping_add(step);
             // Around the cell's middle: 1/2 + s (3/2 - 2 s^2), and 6 (1/4 - s^2).
             let s = t.0[i] - real(0.5);
             out.f.0[i] = (s * s).mul_add(real(-2.0), real(1.5)).mul_add(s, real(0.5));
@@ -89,14 +156,14 @@ impl<T: Grain> Along<T> {
 impl Along<f64> {
     /// The cells and positions of any numbers.
     #[inline(always)]
-    fn of(x: &F8, apart: u32) -> Self {
+    fn of<L: Lattice>(lattice: L, x: &F8, axis: usize) -> Self {
         let (mut corner, mut t) = ([0; 8], Eight::ZERO);
         for (i, corner) in corner.iter_mut().enumerate() {
             let whole = x.0[i].floor();
-            *corner = number(whole).wrapping_mul(apart);
+            *corner = lattice.cell(whole, axis);
             t.0[i] = x.0[i] - whole;
         }
-        Self::new(corner, &t, apart)
+        Self::new(corner, &t, L::STEP[axis])
     }
 }
 
@@ -132,13 +199,18 @@ fn mixed(x: u32) -> u32 {
 
 /// The hash of one corner of each lane's cell.
 #[inline(always)]
-fn hashes<T>(along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
+fn hashes<T, L: Lattice>(lattice: L, along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
     let mut hash = [0; 8];
     for (lane, hash) in hash.iter_mut().enumerate() {
-        let [x, y, z] = along;
-        *hash = x.corner[corner & 1][lane] ^ y.corner[corner >> 1 & 1][lane] ^ z.corner[corner >> 2][lane];
+        *hash = lattice.hash(cells(along, corner, lane));
     }
     hash
+}
+
+/// The numbers of one corner of a lane's cell along the axes.
+#[inline(always)]
+fn cells<T>([x, y, z]: &[Along<T>; 3], corner: usize, lane: usize) -> [u32; 3] {
+    [x.corner[corner & 1][lane], y.corner[corner >> 1 & 1][lane], z.corner[corner >> 2][lane]]
 }
 
 /// An array of the values of an expression for each corner: bit `i` of its number is its position
@@ -170,21 +242,6 @@ struct Sum<T> {
 }
 
 impl<T: Grain> Sum<T> {
-    /// Values and slopes of eight points of the lattice.
-    #[inline(always)]
-    fn said(hash: &[u32; 8]) -> Self {
-        let (value, slope) = (real::<T>(1.0 + 132.0 / 256.0), real::<T>(3.0 - 1.0 / 256.0));
-        let mut out = Self { v: Eight::ZERO, d: [Eight::ZERO; 3] };
-        for (i, &hash) in hash.iter().enumerate() {
-            let bits = mixed(hash);
-            out.v.0[i] = T::eight(bits, real(1.0)) - value;
-            out.d[0].0[i] = T::eight(bits >> 8, real(2.0)) - slope;
-            out.d[1].0[i] = T::eight(bits >> 16, real(2.0)) - slope;
-            out.d[2].0[i] = T::eight(bits >> 24, real(2.0)) - slope;
-        }
-        out
-    }
-
     /// Blends from `a` to `b` along an axis.
     #[inline(always)]
     fn blended(along: &[Along<T>; 3], axis: usize, a: &Self, b: &Self) -> Self {
@@ -201,24 +258,16 @@ impl<T: Grain> Sum<T> {
     /// The contributions of all corners; if all lanes are in one cell, its eight corners are hashed
     /// once.
     #[inline(always)]
-    fn corners<const ONE_CELL: bool>(along: &[Along<T>; 3]) -> [Self; 8] {
+    fn corners<const ONE_CELL: bool, L: Lattice>(lattice: L, along: &[Along<T>; 3]) -> [Self; 8] {
         if !ONE_CELL {
-            return each_corner!(c => Self::said(&hashes(along, c)).seen(along, c));
+            return each_corner!(c => lattice.values(&hashes(lattice, along, c)).seen(along, c));
         }
-        let [x, y, z] = along;
-        let turn = [
-            x.corner[0][0] ^ x.corner[1][0],
-            y.corner[0][0] ^ y.corner[1][0],
-            z.corner[0][0] ^ z.corner[1][0],
-        ];
-        let mut hash = [x.corner[0][0] ^ y.corner[0][0] ^ z.corner[0][0]; 8];
+        let mut hash = [0; 8];
         for (corner, hash) in hash.iter_mut().enumerate() {
-            for (axis, turn) in turn.iter().enumerate() {
-                *hash ^= turn & 0_u32.wrapping_sub(corner as u32 >> axis & 1);
-            }
+            *hash = lattice.hash(cells(along, corner, 0));
         }
-        let said = Self::said(&hash);
-        each_corner!(c => said.splat(c).seen(along, c))
+        let values = lattice.values(&hash);
+        each_corner!(c => values.splat(c).seen(along, c))
     }
 
     /// One lane's value and slopes in all lanes.
@@ -263,33 +312,61 @@ impl<T: Grain> Sum<T> {
 impl Sum<f64> {
     /// The noise at eight points.
     #[inline(always)]
-    fn at([x, y, z]: [&F8; 3]) -> Self {
-        let along = [Along::of(x, APART[0]), Along::of(y, APART[1]), Along::of(z, APART[2])];
+    fn at<L: Lattice>(lattice: L, [x, y, z]: [&F8; 3]) -> Self {
+        let along = [Along::of(lattice, x, 0), Along::of(lattice, y, 1), Along::of(lattice, z, 2)];
         if are_one_cell(&along) {
-            Self::of(&along, &Self::corners::<true>(&along))
+            Self::of(&along, &Self::corners::<true, L>(lattice, &along))
         } else {
-            Self::of(&along, &Self::corners::<false>(&along))
+            Self::of(&along, &Self::corners::<false, L>(lattice, &along))
         }
+    }
+
+    /// The value and the derivatives.
+    #[inline(always)]
+    fn parts(self) -> (F8, [F8; 3]) {
+        let Self { v, d } = self;
+        (F8(v.0), [F8(d[0].0), F8(d[1].0), F8(d[2].0)])
     }
 }
 
-/// The noise of eight points, rounded: about zero, from -1 to 1.
+/// The noise of eight points, rounded: about zero, from -1 to 1. It is durer's own without a table.
 #[inline(never)]
-pub fn values(p: [&F8; 3]) -> F8 {
+pub fn values(table: Option<&NoiseTable>, p: [&F8; 3]) -> F8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || F8(Sum::at(p).v.0),
+        || match table {
+            None => F8(Sum::at(Own, p).v.0),
+            Some(table) => F8(Sum::at(table, p).v.0),
+        },
     )
 }
 
 /// The noise of eight points and its derivatives, rounded.
 #[inline(never)]
-pub(crate) fn slants(p: [&F8; 3]) -> (F8, [F8; 3]) {
+pub(crate) fn slants(table: Option<&NoiseTable>, p: [&F8; 3]) -> (F8, [F8; 3]) {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || {
-            let Sum { v, d } = Sum::at(p);
-            (F8(v.0), [F8(d[0].0), F8(d[1].0), F8(d[2].0)])
+        || match table {
+            None => Sum::at(Own, p).parts(),
+            Some(table) => Sum::at(table, p).parts(),
+        },
+    )
+}
+
+/// Bounds of noise on eight boxes.
+#[inline(never)]
+pub(crate) fn bounds(table: Option<&NoiseTable>, p: [&I8; 3]) -> I8 {
+    slopes(table, p).0
+}
+
+/// Bounds on noise and its derivatives on eight boxes.
+#[inline(never)]
+pub(crate) fn slopes(table: Option<&NoiseTable>, p: [&I8; 3]) -> (I8, [I8; 3]) {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || match table {
+            None => bounds::bounds_in_cell(Own, p),
+            Some(table) => bounds::bounds_in_cell(table, p),
         },
     )
 }

@@ -4,8 +4,41 @@ use super::bounds::{BEND, CORNER, SLOPE, TWIST};
 use super::*;
 use crate::{Dyadic, I8, Interval, Ring};
 
+/// A table with values and slopes up to 0.7 and 1.3.
+fn table() -> &'static NoiseTable {
+    let (points, order) = numbers();
+    NoiseTable::shared(&points, &order).unwrap()
+}
+
+fn numbers() -> ([[f64; 4]; 256], [u16; 4096]) {
+    let mut dice = Dice(77);
+    let mut random = |most: f64| (dice.unit() * 2.0 - 1.0) * most;
+    let points = core::array::from_fn(|_| [random(0.7), random(1.3), random(1.3), random(1.3)]);
+    // A permutation: multiplication by an odd number.
+    (points, core::array::from_fn(|i| (i * 1237 + 411) as u16 % 4096))
+}
+
+/// The value and the slopes of a point of the lattice.
+fn point(table: Option<&NoiseTable>, p: [f64; 3]) -> [Dyadic; 4] {
+    if table.is_some() {
+        let (points, order) = numbers();
+        let [x, y, z] = p.map(|x| (x + 10_000.0).rem_euclid(4096.0) as usize);
+        let next = |k: usize| usize::from(order[k % 4096]);
+        return points[next(next(next(x) ^ y) ^ z) % 256].map(Dyadic::exact);
+    }
+    let mut hash = 0_u32;
+    for axis in 0..3 {
+        let number = p[axis].rem_euclid(4_294_967_296.0) as u32;
+        hash ^= number.wrapping_mul(Own::STEP[axis]);
+    }
+    let hash = mixed(hash);
+    let byte = |k: u32| f64::from(hash >> (8 * k) & 0xff);
+    let g = |k: u32| (2.0 * byte(k) - 255.0) / 256.0;
+    [(byte(0) - 132.0) / 256.0, g(1), g(2), g(3)].map(Dyadic::exact)
+}
+
 /// Noise and its derivatives, exactly.
-fn exact(p: [f64; 3]) -> [Dyadic; 4] {
+fn exact(table: Option<&NoiseTable>, p: [f64; 3]) -> [Dyadic; 4] {
     let number = |x: f64| Dyadic::exact(x);
     let whole = p.map(f64::floor);
     let zero = || number(0.0);
@@ -16,16 +49,9 @@ fn exact(p: [f64; 3]) -> [Dyadic; 4] {
     let slope = |t: &Dyadic| number(6.0) * t.clone() * (number(1.0) - t.clone());
     for corner in 0..8 {
         let bit = |axis: usize| corner >> axis & 1;
-        let mut hash = 0_u32;
-        for axis in 0..3 {
-            let number = (whole[axis] + f64::from(bit(axis))).rem_euclid(4_294_967_296.0) as u32;
-            hash ^= number.wrapping_mul(APART[axis]);
-        }
-        let hash = mixed(hash);
-        let byte = |k: u32| f64::from(hash >> (8 * k) & 0xff);
-        let g = [1, 2, 3].map(|k| number((2.0 * byte(k) - 255.0) / 256.0));
+        let [v, g @ ..] = point(table, [0, 1, 2].map(|axis| whole[axis] + f64::from(bit(axis))));
         let from: [Dyadic; 3] = [0, 1, 2].map(|i| t[i].clone() - number(f64::from(bit(i))));
-        let q = (0..3).fold(number((byte(0) - 132.0) / 256.0), |q, i| q + g[i].clone() * from[i].clone());
+        let q = (0..3).fold(v, |q, i| q + g[i].clone() * from[i].clone());
         let weight = |i: usize| if bit(i) == 1 { f(&t[i]) } else { number(1.0) - f(&t[i]) };
         let steep = |i: usize| if bit(i) == 1 { slope(&t[i]) } else { -slope(&t[i]) };
         let all = weight(0) * weight(1) * weight(2);
@@ -76,17 +102,31 @@ fn is_within(x: &Dyadic, lo: f64, hi: f64) -> bool {
 #[test]
 fn rounded_values_and_slopes_are_as_near_as_is_said() {
     let mut dice = Dice(1);
-    for _ in 0..20_000 {
+    for i in 0..40_000 {
+        let table = (i % 2 == 0).then(table);
         let p = [dice.number(), dice.number(), dice.number()];
-        let (v, d) = slants(F8::splats(p).each_ref());
+        let (v, d) = slants(table, F8::splats(p).each_ref());
         let told = [v, d[0], d[1], d[2]];
-        for (told, exact) in told.iter().zip(exact(p)) {
-            let e = crate::U * f64::from(if *told == v { VALUE_ROUNDINGS } else { SLOPE_ROUNDINGS });
+        for (told, exact) in told.iter().zip(exact(table, p)) {
+            let e = size(table)
+                * crate::U
+                * f64::from(if *told == v { VALUE_ROUNDINGS } else { SLOPE_ROUNDINGS });
             // The true error is at most a quarter of the bound.
             let (lo, hi) = (told.0[0] - e / 4.0, told.0[0] + e / 4.0);
             assert!(is_within(&exact, lo, hi), "{p:?}: {told:?} {exact:?}");
         }
     }
+}
+
+fn size(table: Option<&NoiseTable>) -> f64 {
+    table.map_or(1.0, Lattice::size)
+}
+
+/// Noise at eight equal points, of a cell and in it.
+fn single<L: Lattice>(lattice: L, whole: [f64; 3], t: [f32; 3]) -> Sum<f32> {
+    let along =
+        [0, 1, 2].map(|i| Along::new([lattice.cell(whole[i], i); 8], &Eight::splat(t[i]), L::STEP[i]));
+    Sum::of(&along, &Sum::corners::<false, L>(lattice, &along))
 }
 
 /// In single precision, too, at points that it can represent: in the cells around the lattice's
@@ -95,20 +135,20 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
 fn single_precision_is_as_near_as_is_said() {
     let mut dice = Dice(5);
     let mut worst = [0.0_f64; 2];
-    for _ in 0..20_000 {
+    for i in 0..40_000 {
+        let table = (i % 2 == 0).then(table);
         let whole = [0, 1, 2].map(|_| (dice.bits() % 2) as f64 - 1.0);
         let t = [0, 1, 2].map(|_| (dice.unit() * [1.0, 1.0, 1e-9][(dice.bits() % 3) as usize]) as f32);
-        let axis = |i: usize| {
-            Along::new([number(whole[i]).wrapping_mul(APART[i]); 8], &Eight::splat(t[i]), APART[i])
+        let Sum { v, d } = match table {
+            None => single(Own, whole, t),
+            Some(table) => single(table, whole, t),
         };
-        let along = [axis(0), axis(1), axis(2)];
-        let Sum { v, d } = Sum::of(&along, &Sum::corners::<false>(&along));
         // Sums with an integer are exact in f64 but for some small ones below zero, which then do
         // not count in f32.
-        let exact = exact([0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
+        let exact = exact(table, [0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
         for (k, (told, exact)) in [v, d[0], d[1], d[2]].iter().zip(&exact).enumerate() {
             let off = exact.clone() - Dyadic::exact(f64::from(told.0[0]));
-            let off = off.abs().to_f64() / f64::from(<f32 as Real>::U);
+            let off = off.abs().to_f64() / (size(table) * f64::from(<f32 as Real>::U));
             worst[usize::from(k > 0)] = worst[usize::from(k > 0)].max(off);
         }
     }
@@ -122,7 +162,7 @@ fn single_precision_is_as_near_as_is_said() {
 
 #[test]
 fn pictures_of_noise_stay_what_they_are() {
-    let at = |p: [f64; 3]| values(F8::splats(p).each_ref()).0[0];
+    let at = |p: [f64; 3]| values(None, F8::splats(p).each_ref()).0[0];
     let known = [
         ([0.3, 0.7, 0.2], -0.4793344928000001),
         ([-5.25, 1e6 + 0.125, 77.5], 0.2862153649330139),
@@ -139,7 +179,8 @@ fn pictures_of_noise_stay_what_they_are() {
 #[test]
 fn bounds_hold_exact_values_and_rounded_ones() {
     let mut dice = Dice(2);
-    for _ in 0..3_000 {
+    for i in 0..6_000 {
+        let table = (i % 2 == 0).then(table);
         let any_size =
             |dice: &mut Dice| [0.0, 1e-12, 1e-4, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 8) as usize];
         let (is_mixed, mut size) = (dice.bits().is_multiple_of(2), any_size(&mut dice));
@@ -153,8 +194,8 @@ fn bounds_hold_exact_values_and_rounded_ones() {
                 x.set_lane(i, Interval { lo, hi: lo + size * dice.unit() });
             }
         }
-        let (v, d) = slopes(boxes.each_ref());
-        assert_eq!(v, bounds(boxes.each_ref()));
+        let (v, d) = slopes(table, boxes.each_ref());
+        assert_eq!(v, bounds(table, boxes.each_ref()));
         for i in 0..8 {
             for _ in 0..2 {
                 let k = [0.0, 1.0, dice.unit(), dice.unit()];
@@ -162,9 +203,9 @@ fn bounds_hold_exact_values_and_rounded_ones() {
                     let Interval { lo, hi } = x.lane(i);
                     (lo + (hi - lo) * k[(dice.bits() % 4) as usize]).clamp(lo, hi)
                 });
-                let (value, slope) = slants(F8::splats(p).each_ref());
+                let (value, slope) = slants(table, F8::splats(p).each_ref());
                 let told = [(v, value), (d[0], slope[0]), (d[1], slope[1]), (d[2], slope[2])];
-                for ((bounds, rounded), exact) in told.into_iter().zip(exact(p)) {
+                for ((bounds, rounded), exact) in told.into_iter().zip(exact(table, p)) {
                     let Interval { lo, hi } = bounds.lane(i);
                     assert!(is_within(&exact, lo, hi), "{p:?}: {lo} {hi} {exact:?}");
                     assert!(lo <= rounded.0[0] && rounded.0[0] <= hi, "{p:?}: {lo} {hi} {rounded:?}");
@@ -213,21 +254,23 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
 #[test]
 fn values_and_slopes_go_on_from_cell_to_cell() {
     let mut dice = Dice(3);
-    for _ in 0..5_000 {
+    for i in 0..10_000 {
+        let table = (i % 2 == 0).then(table);
         let mut p = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
         let axis = (dice.bits() % 3) as usize;
         p[axis] = p[axis].round();
         let at = |x: f64| {
             let mut p = p;
             p[axis] = x;
-            slants(F8::splats(p).each_ref())
+            slants(table, F8::splats(p).each_ref())
         };
         let ((a, da), (b, db)) = (at(p[axis].next_down()), at(p[axis].next_up()));
         let apart = p[axis].next_up() - p[axis].next_down();
-        let error = |roundings| 2.0 * crate::U * f64::from(roundings);
-        assert!((a.0[0] - b.0[0]).abs() <= error(VALUE_ROUNDINGS) + SLOPE * apart);
+        let size = size(table);
+        let error = |roundings| 2.0 * crate::U * size * f64::from(roundings);
+        assert!((a.0[0] - b.0[0]).abs() <= error(VALUE_ROUNDINGS) + SLOPE * size * apart);
         for (da, db) in da.iter().zip(&db) {
-            assert!((da.0[0] - db.0[0]).abs() <= error(SLOPE_ROUNDINGS) + BEND * apart);
+            assert!((da.0[0] - db.0[0]).abs() <= error(SLOPE_ROUNDINGS) + BEND * size * apart);
         }
     }
 }
@@ -236,7 +279,7 @@ fn values_and_slopes_go_on_from_cell_to_cell() {
 fn corners_are_alike_and_know_nothing_of_each_other() {
     // The values at 64^3 lattice points, and at their neighbours along each direction.
     let corner = |p: [f64; 3]| {
-        let (v, [x, y, z]) = slants(F8::splats(p).each_ref());
+        let (v, [x, y, z]) = slants(None, F8::splats(p).each_ref());
         [v.0[0] + 4.5 / 256.0, x.0[0], y.0[0], z.0[0]]
     };
     const NEXT: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
@@ -294,11 +337,11 @@ fn bounds_of_small_boxes_are_hardly_wider_than_the_values() {
             if beside_large {
                 boxes[0].set_lane(7, Interval { lo: lo[0], hi: lo[0] + 0.5 });
             }
-            let v = bounds(boxes.each_ref()).lane(0);
+            let v = bounds(None, boxes.each_ref()).lane(0);
             let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
             for k in 0..125_u32 {
                 let at = [k % 5, k / 5 % 5, k / 25].map(|k| f64::from(k) / 4.0 * size);
-                let value = values(F8::splats([0, 1, 2].map(|i| lo[i] + at[i])).each_ref()).0[0];
+                let value = values(None, F8::splats([0, 1, 2].map(|i| lo[i] + at[i])).each_ref()).0[0];
                 (least, greatest) = (least.min(value), greatest.max(value));
             }
             ratios.push((v.hi - v.lo) / (greatest - least));

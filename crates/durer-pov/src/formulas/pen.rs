@@ -142,7 +142,7 @@ impl Pen {
             ("pow", &[a, b]) => self.push(Op::Pow(a, b)),
             ("rem", &[a, b]) => self.push(Op::Rem(a, b)),
             ("atan2", &[a, b]) => self.push(Op::Atan2(a, b)),
-            ("noise", &[x, y, z]) => self.push(Op::Noise([x, y, z])),
+            ("noise", &[x, y, z]) => self.push(Op::Noise(None, [x, y, z])),
             ("select", &[c, below, at, above]) => self.push(Op::Select([c, below, at, above])),
             ("u" | "v", &[switch, offset, angle]) => self.revolved(word == "u", [switch, offset, angle]),
             ("section", &[a, b, kind]) => self.section([a, b], kind),

@@ -201,8 +201,10 @@ impl Parser<'_> {
     /// Gives the pattern the scene's noise generator.
     pub(crate) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
         let generator = self.language.noise_generator();
-        if modifiers.turbulence.generator != generator {
-            Rc::make_mut(&mut modifiers.turbulence).generator = generator;
+        let tables = self.noise_tables();
+        if modifiers.turbulence.generator != generator || modifiers.turbulence.tables != tables {
+            let turbulence = Rc::make_mut(&mut modifiers.turbulence);
+            (turbulence.generator, turbulence.tables) = (generator, tables);
         }
     }
 

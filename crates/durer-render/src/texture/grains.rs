@@ -47,7 +47,7 @@ impl Grains {
     /// The noise at some points, about zero.
     pub(crate) fn values(&self, p: Vec3<F8>) -> F8 {
         match self {
-            Self::Own => noise::values([&p.x, &p.y, &p.z]),
+            Self::Own => noise::values(None, [&p.x, &p.y, &p.z]),
             Self::Learned(learned) => learned.values([&p.x, &p.y, &p.z]),
         }
     }
@@ -71,7 +71,7 @@ impl Grains {
                 for (i, [x, y, z]) in ELSEWHERE.into_iter().enumerate() {
                     at.set_lane(i, p.to_vec() + Vec3::new(x, y, z));
                 }
-                let n = noise::values([&at.x, &at.y, &at.z]).0;
+                let n = noise::values(None, [&at.x, &at.y, &at.z]).0;
                 Vec3::new(n[0], n[1], n[2])
             }
             Self::Learned(learned) => learned.vector(p),

@@ -102,7 +102,7 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
                 made.push(b.constant(c).ok()?);
                 continue;
             }
-            17 => Op::Noise([x, y, pick()]),
+            17 => Op::Noise(None, [x, y, pick()]),
             18 => {
                 // y + x a or y + x b, which are equal where x is zero.
                 let (below, above) = (b.push(Op::Mul(x, pick())).ok()?, b.push(Op::Mul(x, pick())).ok()?);
@@ -313,7 +313,7 @@ fn always_defined(formula: &Formula) -> bool {
                 | Op::Times(..)
                 | Op::Min(..)
                 | Op::Max(..)
-                | Op::Noise(_)
+                | Op::Noise(..)
                 | Op::Joined(_)
                 | Op::Function(Function::Sin | Function::Cos | Function::Atan | Function::Tanh, _)
         )

@@ -342,8 +342,7 @@ pub fn points_are_within_their_bounds(
     // If t does not separate some crossings, those with the root's sign, in their order.
     let mut found = oracle.crossings(&line);
     found.retain(|c| c.sign == root.sign && holds(root, c));
-    let before =
-        |first: &Crossing| earlier.iter().filter(|r| r.sign == root.sign && holds(r, first)).count();
+    let before = |first: &Crossing| earlier.iter().filter(|r| r.sign == root.sign && holds(r, first)).count();
     let rank = found.first().map_or(0, before).min(found.len().saturating_sub(1));
     let Some(exact) = found.into_iter().nth(rank) else {
         return Err("no crossing in the bracket".into());
