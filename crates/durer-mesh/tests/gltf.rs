@@ -498,7 +498,7 @@ fn materials_have_their_base_colours() -> Result<(), ErrorKind> {
     let mesh = &model.groups[0].mesh;
     assert_eq!(
         mesh.faces.iter().map(|f| f.texture).collect::<Vec<_>>(),
-        [Some(0), Some(1), None, Some(0), Some(2), Some(3)]
+        [Some(0), Some(1), None, Some(0), Some(2), Some(3)].map(|t| t.map(durer_scene::FaceTexture::One))
     );
     let colour = |i: usize| match &mesh.textures[i].body {
         TextureBody::Layers(layers) => match layers[0].pigment.body {

@@ -285,7 +285,7 @@ impl Parser<'_> {
         if object.cutaway_textures {
             made.cutaway_textures = Some(self.default_look(at)?);
         }
-        made.interior = object.interior.as_ref().map(|interior| Arc::new(filling(interior)));
+        made.interior = inside(object).map(Arc::new);
         made.clips = clips;
         made.flags = flags(object);
         made.place = Some(scene::Place { file: at.file, start: at.start });
@@ -320,8 +320,8 @@ impl Parser<'_> {
             let texture = self.shared_texture(texture, at)?;
             made.interior_texture.get_or_insert(texture);
         }
-        if let Some(interior) = &object.interior {
-            made.interior.get_or_insert_with(|| Arc::new(filling(interior)));
+        if let Some(interior) = inside(object) {
+            made.interior.get_or_insert_with(|| Arc::new(interior));
         }
         made.clips.extend(clips);
         made.flags = made.flags.or(flags(object));
@@ -573,6 +573,21 @@ pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
 
 /// The factor from the language's number for caustics to the exponent of the cosine.
 const CAUSTICS: f64 = 45.0;
+
+/// The interior of an object, with what the finish of its texture says of it in old scenes.
+fn inside(object: &Object) -> Option<scene::Interior> {
+    let own = object.interior.as_deref().map(filling);
+    let Some(Texture::Layers(layers)) = object.texture.as_deref() else { return own };
+    let ior = layers.iter().find_map(|layer| layer.finish.ior);
+    let caustics = layers.iter().find_map(|layer| layer.finish.caustics);
+    if ior.is_none() && caustics.is_none() {
+        return own;
+    }
+    let mut made = own.unwrap_or_else(|| filling(&Interior::default()));
+    made.ior = ior.unwrap_or(made.ior);
+    made.caustics = caustics.unwrap_or(made.caustics);
+    Some(made)
+}
 
 fn filling(interior: &Interior) -> scene::Interior {
     scene::Interior {

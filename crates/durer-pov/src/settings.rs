@@ -219,7 +219,11 @@ impl Parser<'_> {
     /// Reads what stands in braces after `background`.
     pub(crate) fn background(&mut self) -> Result<()> {
         self.expect(Mark::BraceOpen)?;
-        let color = self.colour()?;
+        let mut color = self.colour()?;
+        if self.language.version < 3.7 {
+            // The background of older scenes is opaque.
+            (color[3], color[4]) = (0.0, 0.0);
+        }
         self.scene.background = Some(color);
         self.expect(Mark::BraceClose)
     }

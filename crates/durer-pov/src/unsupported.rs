@@ -49,7 +49,6 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Ratio
             | Reciprocal
             | RecursionLimit
-            | Refraction
             | Samples
             | SaveFile
             | Scattering

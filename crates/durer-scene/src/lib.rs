@@ -68,10 +68,10 @@ pub use crate::ramp::{
 pub use crate::sampled::{SampledFunction, TextureSample, TextureSource};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};
 pub use crate::shape::{
-    Blob, Container, Deform, Face, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch, Prism,
-    QuadricKind, Shape, Spline, StraightSweep, Sweep, TriangularPatch,
+    Blob, Container, Deform, Face, FaceTexture, Isosurface, Mesh, NamedQuadric, Operation, Parametric, Patch,
+    Prism, QuadricKind, Shape, Spline, StraightSweep, Sweep, TriangularPatch,
 };
-pub use crate::texture::{Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use crate::texture::{FieldWeights, Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
 pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};

@@ -421,6 +421,15 @@ pub struct Face {
     pub vertices: [u32; 3],
     /// The numbers of the normals at its corners; flat without them.
     pub normals: Option<[u32; 3]>,
-    /// The number of its texture; the object's without it.
-    pub texture: Option<u32>,
+    /// Its texture; the object's without it.
+    pub texture: Option<FaceTexture>,
+}
+
+/// The numbers of a face's textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaceTexture {
+    /// One texture.
+    One(u32),
+    /// A texture for each corner, mixed by the point's barycentric coordinates.
+    Corners([u32; 3]),
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use durer_math::{Affine, AffineError};
+use durer_math::{Affine, AffineError, Point3};
 use durer_surfaces::Blob;
 
 use crate::{Colour, Finish, ImageMap, Normal, Pattern, Placement, PointWarp, Rgb};
@@ -31,22 +31,31 @@ pub enum TextureBody {
     Layers(Vec<Layer>),
     /// Other textures, selected or mixed by a pattern.
     Pattern(Box<Pattern<Arc<Texture>>>),
-    /// Other textures, mixed by the fields of a blob.
+    /// Other textures, mixed by weights that change from point to point.
     Fields(Box<Fields>),
 }
 
-/// Textures that are mixed by the fields of a blob. At each point it is the mean of the textures
-/// whose fields reach the point, weighted by the magnitudes of the fields.
+/// Textures that are mixed by weights. At each point it is the mean of the textures whose weights
+/// are not zero there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
-    /// From the blob's space to that of the texture.
+    /// From the space of the weights to that of the texture.
     pub placement: Placement,
-    /// The fields.
-    pub blob: Blob,
-    /// The texture of each component, placed in the blob's space.
+    /// The weights.
+    pub by: FieldWeights,
+    /// The texture of each component or corner, placed in the space of the weights.
     pub textures: Vec<Option<Arc<Texture>>>,
     /// The texture of components without one of their own, placed in the space of the texture.
     pub rest: Arc<Texture>,
+}
+
+/// The weights of textures at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldWeights {
+    /// The magnitudes of the fields of a blob's components.
+    Blob(Blob),
+    /// The barycentric coordinates in a triangle with these corners.
+    Triangle([Point3; 3]),
 }
 
 impl Fields {

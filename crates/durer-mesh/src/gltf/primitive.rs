@@ -6,7 +6,7 @@ use super::{item, material, wrong};
 use crate::Group;
 use crate::error::{ErrorKind, Location};
 use durer_math::{Point3, Vec3};
-use durer_scene::{Face, Mesh};
+use durer_scene::{Face, FaceTexture, Mesh};
 use gltf::json::Root;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -109,7 +109,11 @@ impl<'a> Assembly<'a> {
             };
             let corner = corner.map(|c| corners[c]);
             let from = |first: u32| corner.map(|c| first + c);
-            mesh.faces.push(Face { vertices: from(vertices), normals: normals.map(from), texture });
+            mesh.faces.push(Face {
+                vertices: from(vertices),
+                normals: normals.map(from),
+                texture: texture.map(FaceTexture::One),
+            });
             if let Some(uv) = uv {
                 mesh.uv_faces.resize(mesh.faces.len() - 1, None);
                 mesh.uv_faces.push(Some(from(uv)));

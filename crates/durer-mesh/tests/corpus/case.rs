@@ -1,6 +1,7 @@
 //! Laws that hold for any bytes that are read as a mesh file.
 
 use durer_mesh::{Format, Model, Topology, read_bytes};
+use durer_scene::FaceTexture;
 
 /// Reads the bytes. A refused file gives one short line of message. An accepted one has all indices
 /// in range and can be made into a scene.
@@ -26,7 +27,9 @@ fn sound(model: Model) {
         for face in &mesh.faces {
             assert!(face.vertices.iter().all(|v| (*v as usize) < mesh.vertices.len()));
             assert!(face.normals.iter().flatten().all(|n| (*n as usize) < mesh.normals.len()));
-            assert!(face.texture.iter().all(|t| (*t as usize) < mesh.textures.len()));
+            let known =
+                |t: &FaceTexture| matches!(t, FaceTexture::One(t) if (*t as usize) < mesh.textures.len());
+            assert!(face.texture.iter().all(known));
         }
         assert!(mesh.uv_faces.is_empty() || mesh.uv_faces.len() == mesh.faces.len());
         assert!(mesh.uv_faces.iter().flatten().flatten().all(|n| (*n as usize) < mesh.uv.len()));

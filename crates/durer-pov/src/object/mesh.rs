@@ -12,13 +12,14 @@ use crate::parser::{Item, Parser};
 use crate::texture::Texture;
 use crate::transform::length;
 use crate::value::Value;
+use durer_scene::FaceTexture;
 
 /// A triangle of a mesh: numbers of corners, of their normals, of its texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Face {
     pub(crate) vertices: [u32; 3],
     pub(crate) normals: Option<[u32; 3]>,
-    pub(crate) texture: Option<u32>,
+    pub(crate) texture: Option<FaceTexture>,
     /// The numbers of the texture coordinates at its corners.
     pub(crate) uv: Option<[u32; 3]>,
 }
@@ -114,10 +115,17 @@ impl Parser<'_> {
             }
             if self.take_word(Keyword::Texture)? {
                 let texture = self.nested(Self::texture_block)?;
-                face.texture = Some(texture_index(&mut mesh.textures, texture));
-                if self.take_mark(Mark::Comma)? {
-                    return Err(Error::unsupported(place, "three textures on one triangle"));
+                let texture = Rc::new(texture);
+                face.texture = Some(FaceTexture::One(texture_index(&mut mesh.textures, texture)));
+            } else if self.take_word(Keyword::TextureList)? {
+                self.expect(Mark::BraceOpen)?;
+                let mut at = [0; 3];
+                for corner in &mut at {
+                    let texture = self.listed_texture()?;
+                    *corner = texture_index(&mut mesh.textures, texture);
                 }
+                self.expect(Mark::BraceClose)?;
+                face.texture = Some(FaceTexture::Corners(at));
             }
             self.expect(Mark::BraceClose)?;
             mesh.faces.push(face);
@@ -155,19 +163,7 @@ impl Parser<'_> {
                 }
                 Keyword::TextureList => {
                     self.next()?;
-                    mesh.textures = self.counted(8, |r| {
-                        r.take_word(Keyword::Texture)?;
-                        let texture = match r.peek()? {
-                            Item::Value(Value::Texture(known)) => {
-                                let known = known.clone();
-                                r.next()?;
-                                known
-                            }
-                            _ => Rc::new(r.nested(Self::texture_block)?),
-                        };
-                        r.skip_comma()?;
-                        Ok(texture)
-                    })?;
+                    mesh.textures = self.counted(8, Self::listed_texture)?;
                 }
                 Keyword::FaceIndices => {
                     self.next()?;
@@ -255,6 +251,21 @@ impl Parser<'_> {
         Ok(list.map(|v| v as u32))
     }
 
+    /// A texture of a list, by its name or in braces, and a comma.
+    fn listed_texture(&mut self) -> Result<Rc<Texture>> {
+        self.take_word(Keyword::Texture)?;
+        let texture = match self.peek()? {
+            Item::Value(Value::Texture(known)) => {
+                let known = known.clone();
+                self.next()?;
+                known
+            }
+            _ => Rc::new(self.nested(Self::texture_block)?),
+        };
+        self.skip_comma()?;
+        Ok(texture)
+    }
+
     fn face_indices(&mut self, mesh: &mut Mesh) -> Result<()> {
         let count = mesh.vertices.len();
         let textures = mesh.textures.len();
@@ -273,10 +284,11 @@ impl Parser<'_> {
                 more.push(index as u32);
             }
             if let Some(&first) = more.first() {
-                if more.iter().any(|&index| index != first) {
-                    return Err(Error::unsupported(place, "three textures on one triangle"));
-                }
-                texture = Some(first);
+                // Corners without a number of their own have the first one.
+                let at =
+                    [first, more.get(1).copied().unwrap_or(first), more.get(2).copied().unwrap_or(first)];
+                texture =
+                    Some(if at == [first; 3] { FaceTexture::One(first) } else { FaceTexture::Corners(at) });
             }
             Ok(Face { vertices, normals: None, texture, uv: None })
         })?;
@@ -302,12 +314,12 @@ impl Parser<'_> {
 }
 
 /// The number of `texture` among the mesh's; the last few are compared, since neighbours mostly share one.
-fn texture_index(textures: &mut Vec<Rc<Texture>>, texture: Texture) -> u32 {
+fn texture_index(textures: &mut Vec<Rc<Texture>>, texture: Rc<Texture>) -> u32 {
     const COMPARED: usize = 8;
     let first = textures.len().saturating_sub(COMPARED);
-    let known = textures[first..].iter().position(|t| **t == texture).map(|i| first + i);
+    let known = textures[first..].iter().position(|t| *t == texture).map(|i| first + i);
     known.unwrap_or_else(|| {
-        textures.push(Rc::new(texture));
+        textures.push(texture);
         textures.len() - 1
     }) as u32
 }

@@ -58,6 +58,11 @@ pub(crate) struct Finish {
     /// The amount and the thickness of a thin film.
     pub(crate) irid: Option<Film>,
     pub(crate) reflection: Reflection,
+    /// The index of refraction of the inside, in old scenes: it counts in place of the interior's.
+    pub(crate) ior: Option<f64>,
+    /// The caustics of the inside, in old scenes: the exponent of the cosine, not the number that an
+    /// interior has.
+    pub(crate) caustics: Option<f64>,
 }
 
 impl Default for Finish {
@@ -80,6 +85,8 @@ impl Default for Finish {
             conserve_energy: false,
             irid: None,
             reflection: Reflection::default(),
+            ior: None,
+            caustics: None,
         }
     }
 }
@@ -141,6 +148,14 @@ impl Parser<'_> {
                 Keyword::ConserveEnergy => finish.conserve_energy = self.switch_value()?,
                 Keyword::ReflectionExponent => finish.reflection.exponent = self.exponent()?,
                 Keyword::Reflection => self.reflection(&mut finish.reflection)?,
+                Keyword::Ior => finish.ior = Some(self.index_of_refraction()?),
+                Keyword::Caustics => finish.caustics = Some(self.float()?),
+                // It switches refraction on, which the index does by itself.
+                Keyword::Refraction => {
+                    if self.float()? != 1.0 {
+                        return Err(Error::unsupported(place, "another refraction than 1"));
+                    }
+                }
                 Keyword::Irid => self.irid(&mut finish.irid)?,
                 Keyword::Subsurface => self.leave_out(keyword, place)?,
                 _ => return Err(self.unexpected(&lexeme, "a part of a finish")),

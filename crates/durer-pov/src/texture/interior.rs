@@ -34,6 +34,17 @@ pub(crate) struct Material {
 }
 
 impl Parser<'_> {
+    /// Reads an index of refraction.
+    pub(crate) fn index_of_refraction(&mut self) -> Result<f64> {
+        let place = self.here();
+        let ior = self.float()?;
+        if ior > 0.0 {
+            Ok(ior)
+        } else {
+            Err(Error::invalid(place, "an index of refraction must be positive"))
+        }
+    }
+
     /// Reads what stands in braces after `interior`.
     pub(crate) fn interior_block(&mut self) -> Result<Rc<Interior>> {
         self.expect(Mark::BraceOpen)?;
@@ -48,10 +59,7 @@ impl Parser<'_> {
                 Item::Mark(Mark::BraceClose) => return Ok(Rc::new(interior)),
                 Item::Value(Value::Interior(known)) => interior = (**known).clone(),
                 Item::Word(Keyword::Ior) => {
-                    interior.ior = self.float()?;
-                    if interior.ior <= 0.0 {
-                        return Err(Error::invalid(lexeme.place, "an index of refraction must be positive"));
-                    }
+                    interior.ior = self.index_of_refraction()?;
                 }
                 Item::Word(Keyword::FadeDistance) => interior.fade_distance = self.float()?,
                 Item::Word(Keyword::FadePower) => interior.fade_power = self.float()?,

@@ -1,7 +1,9 @@
-//! Blob textures: the textures of a blob's components are mixed by the strengths of their fields.
+//! Textures that are mixed by weights: those of a blob's components by the strengths of their
+//! fields, those at a triangle's corners by barycentric coordinates.
 //!
 //! ```text
-//!   the part of a component's texture at p:  |f_i(p)| / Σ |f_j(p)|
+//!   the part of a texture at p:  |f_i(p)| / Σ |f_j(p)|
+//!   in a triangle a b c, n = (b - a) × (c - a):  f_a = (b - p) × (c - p) . n,  and so on
 //! ```
 //!
 //! Components that subtract from the field show their texture too (a fact of the scene language).
@@ -10,17 +12,16 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use durer_math::{Affine, AffineError, Point3};
-use durer_scene::{Fields, Texture};
-use durer_surfaces::Blob;
+use durer_scene::{FieldWeights, Fields, Texture};
 
 use super::{Place, RenderTexture};
 
-/// The fields of a blob, each with a texture.
+/// Weights, each with a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Weights {
-    /// The placement of the blob.
+    /// The placement of the space of the weights.
     place: Place,
-    blob: Blob,
+    by: FieldWeights,
     /// The index of each component's texture. Components without a texture have the first one.
     of: Box<[u32]>,
     textures: Box<[RenderTexture]>,
@@ -54,7 +55,7 @@ impl Weights {
         }
         Ok(Self {
             place: Place::new(&place),
-            blob: fields.blob.clone(),
+            by: fields.by.clone(),
             of: of.into(),
             textures: textures.into(),
         })
@@ -70,16 +71,25 @@ impl Weights {
     pub(crate) fn shown(&self, p: Point3, shown: &mut Vec<(u32, f64)>) {
         shown.clear();
         let mut sum = 0.0;
-        self.blob.fields_at(self.place.inside(p, super::Around::NOWHERE), |component, value| {
+        let mut take = |component: usize, value: f64| {
             let (texture, part) = (self.of.get(component).copied().unwrap_or(0), value.abs());
             sum += part;
             match shown.iter_mut().find(|(known, _)| *known == texture) {
                 Some((_, all)) => *all += part,
                 None => shown.push((texture, part)),
             }
-        });
-        if shown.is_empty() {
-            // No field reaches a point that is not on the surface.
+        };
+        let p = self.place.inside(p, super::Around::NOWHERE);
+        match &self.by {
+            FieldWeights::Blob(blob) => blob.fields_at(p, take),
+            FieldWeights::Triangle(corners) => {
+                let parts = barycentric(corners, p).into_iter().enumerate();
+                parts.filter(|(_, part)| *part > 0.0).for_each(|(corner, part)| take(corner, part));
+            }
+        }
+        if !(sum > 0.0 && sum < f64::INFINITY) {
+            // No field reaches a point that is not on the surface, and a triangle may have no area.
+            shown.clear();
             shown.push((0, 1.0));
             return;
         }
@@ -90,14 +100,44 @@ impl Weights {
     }
 }
 
+/// The barycentric coordinates of a point of a triangle, times the square of twice its area, from 0
+/// on.
+fn barycentric([a, b, c]: &[Point3; 3], p: Point3) -> [f64; 3] {
+    let n = (*b - *a).cross(*c - *a);
+    let part = |from: Point3, to: Point3| (from - p).cross(to - p).dot(n).max(0.0);
+    [part(*b, *c), part(*c, *a), part(*a, *b)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use durer_math::Vec3;
     use durer_scene::{BlobComponent, BlobShape, Colour, Finish, Pigment, Placement, Rgb};
+    use durer_surfaces::Blob;
 
     fn grey(v: f64) -> Arc<Texture> {
         Arc::new(Texture::plain(Pigment::solid(Colour::opaque(Rgb::grey(v))), Finish::default()))
+    }
+
+    #[test]
+    fn textures_at_corners_are_shown_by_barycentric_coordinates() {
+        let corners = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [0.0, 4.0, 3.0]].map(Point3::from);
+        let fields = Fields {
+            placement: Placement::IDENTITY,
+            by: FieldWeights::Triangle(corners),
+            textures: vec![Some(grey(0.5)), Some(grey(1.0)), Some(grey(2.0))],
+            rest: grey(0.0),
+        };
+        let paint = |texture: &Texture, around: &Affine| {
+            RenderTexture::new(texture, around, &Affine::IDENTITY, Rgb::WHITE)
+        };
+        let weights = Weights::new(&fields, &Affine::IDENTITY, paint).unwrap();
+        let mut shown = Vec::new();
+        let [a, b, c] = corners.map(Point3::to_vec);
+        weights.shown((a * 0.5 + b * 0.25 + c * 0.25).to_point(), &mut shown);
+        assert_eq!(shown, [(1, 0.5), (2, 0.25), (3, 0.25)]);
+        weights.shown(corners[1], &mut shown);
+        assert_eq!(shown, [(2, 1.0)]);
     }
 
     /// Each field value at the test points is a dyadic number, so all sums are exact.
@@ -123,7 +163,7 @@ mod tests {
         let textures = vec![Some(Arc::clone(&red)), Some(grey(1.0)), Some(grey(2.0)), Some(red)];
         let fields = Fields {
             placement: Placement::new(Affine::scaling(2.0, 2.0, 2.0).unwrap()),
-            blob: Blob::new(0.25, &components).unwrap(),
+            by: FieldWeights::Blob(Blob::new(0.25, &components).unwrap()),
             textures,
             rest: grey(0.0),
         };

@@ -7,7 +7,7 @@ use durer_math::Affine;
 use durer_surfaces::Blob;
 
 use super::{LowerErrorKind, Painted};
-use crate::{Fields, Placement, Texture, TextureBody};
+use crate::{FieldWeights, Fields, Placement, Texture, TextureBody};
 
 /// Makes the texture in world space from the textures of the components. Components without one
 /// have the blob's own texture.
@@ -22,7 +22,7 @@ pub(super) fn texture(
     let Ok(fields) = Blob::new(blob.threshold, &blob.components) else { return Ok(Arc::new(rest)) };
     let fields = Fields {
         placement: Placement::new(*place),
-        blob: fields,
+        by: FieldWeights::Blob(fields),
         textures: blob.textures.clone(),
         rest: Arc::new(rest),
     };

@@ -23,8 +23,8 @@ use durer_math::{Aabb, Affine, AffineError, Point3, Ray, Vec3};
 use durer_surfaces::Side;
 
 use crate::{
-    Camera, Chart, ChartKind, Face, Flags, Interior, LatheSpline, Mesh, Object, Place, Placement, Scene,
-    Shape, Texture, mask,
+    Camera, Chart, ChartKind, Face, FaceTexture, FieldWeights, Fields, Flags, Interior, LatheSpline, Mesh,
+    Object, Place, Placement, Scene, Shape, Texture, TextureBody, mask,
 };
 use camera_media::Enclosure;
 use looks::{LookTable, PrimitiveLooks};
@@ -538,18 +538,33 @@ impl Lowering {
         for texture in &mesh.textures {
             own.push(self.look((Arc::clone(texture), Arc::clone(&own_frame)), medium, flags, None, &chart));
         }
-        let is_shared = object.clips.is_empty() && self.shared.whole(object).is_some();
+        // A texture of its own for each face with textures at its corners.
+        let mixes = mesh.faces.iter().any(|face| matches!(face.texture, Some(FaceTexture::Corners(_))));
+        let is_shared = !mixes && object.clips.is_empty() && self.shared.whole(object).is_some();
         if is_shared && core::ptr::eq(object, self.top) && self.table.same_as_before(mesh, look, own.clone())
         {
             return Ok(primitive);
         }
         for (face, given) in mesh.faces.iter().enumerate() {
+            let of = |texture: u32| {
+                let count = own.len();
+                let missing = LowerErrorKind::MeshTexture { face, texture, count };
+                own.get(texture as usize).copied().ok_or(missing)
+            };
             let look = match given.texture {
                 None => look,
-                Some(texture) => {
-                    let count = own.len();
-                    let missing = LowerErrorKind::MeshTexture { face, texture, count };
-                    *own.get(texture as usize).ok_or(missing)?
+                Some(FaceTexture::One(texture)) => of(texture)?,
+                Some(FaceTexture::Corners(textures)) => {
+                    for texture in textures {
+                        of(texture)?;
+                    }
+                    match corner_texture(mesh, given, textures) {
+                        None => of(textures[0])?,
+                        Some(mixed) => {
+                            let painted = (Arc::new(mixed), Arc::clone(&own_frame));
+                            self.look(painted, medium, flags, None, &chart)
+                        }
+                    }
                 }
             };
             self.table.push(look);
@@ -562,6 +577,26 @@ impl LowerErrorKind {
     fn at(self, place: Option<Place>) -> LowerError {
         LowerError { place, kind: self }
     }
+}
+
+/// The mixture of the textures at a face's corners, in the mesh's own space; `None` if they are the
+/// same.
+fn corner_texture(mesh: &Mesh, face: &Face, textures: [u32; 3]) -> Option<Texture> {
+    let textures = textures.map(|number| &mesh.textures[number as usize]);
+    let [first, others @ ..] = textures;
+    if others.iter().all(|other| *other == first) {
+        return None;
+    }
+    let corners = face.vertices.map(|i| mesh.vertices.get(i as usize).copied());
+    let [Some(a), Some(b), Some(c)] = corners else { return None };
+    let fields = Fields {
+        placement: Placement::IDENTITY,
+        by: FieldWeights::Triangle([a, b, c]),
+        textures: textures.map(|texture| Some(Arc::clone(texture))).into(),
+        rest: Arc::clone(first),
+    };
+    let body = TextureBody::Fields(Box::new(fields));
+    Some(Texture { body, placement: Placement::IDENTITY, on_chart: false })
 }
 
 /// The placement `first`, followed by `next`.
