@@ -27,9 +27,8 @@ fn point(table: Option<&NoiseTable>, p: [f64; 3]) -> [Dyadic; 4] {
         return points[next(next(next(x) ^ y) ^ z) % 256].map(Dyadic::exact);
     }
     let mut hash = 0_u32;
-    for axis in 0..3 {
-        let number = p[axis].rem_euclid(4_294_967_296.0) as u32;
-        hash ^= number.wrapping_mul(Own::STEP[axis]);
+    for (x, step) in p.into_iter().zip(Own::STEP) {
+        hash ^= (x.rem_euclid(4_294_967_296.0) as u32).wrapping_mul(step);
     }
     let hash = mixed(hash);
     let byte = |k: u32| f64::from(hash >> (8 * k) & 0xff);
