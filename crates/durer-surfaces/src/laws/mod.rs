@@ -318,7 +318,9 @@ pub fn powers_of_two_change_nothing(
     if lossless {
         let expected: Vec<Root> =
             roots.iter().map(|r| Root { t: r.t * 0.125, lo: r.lo * 0.125, hi: r.hi * 0.125, ..*r }).collect();
-        let found = all_roots(surface, &scaled);
+        let mut found = all_roots(surface, &scaled);
+        // A crossing beyond the greatest f64 is no root.
+        found.retain(|r| (r.lo * 8.0).is_finite());
         ensure!(found == expected, "eight times the direction: {found:?}, expected {expected:?}");
     }
     Ok(())

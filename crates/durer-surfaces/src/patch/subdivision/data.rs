@@ -67,6 +67,11 @@ pub struct SubdivisionData {
     pub boundary: Boundary,
 }
 
+/// The numbers of so many vertices, as a message says them.
+fn numbers(count: usize) -> String {
+    count.checked_sub(1).map_or_else(String::new, |last| format!(" (0 to {last})"))
+}
+
 /// Why a [`SubdivisionSurface`](super::SubdivisionSurface) cannot exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SubdivisionError {
@@ -105,7 +110,7 @@ pub enum SubdivisionError {
         len: usize,
     },
     /// A face names a vertex that is not there.
-    #[error("subdivision: face {face} names vertex {vertex}, there are {count} (0 to {})", count - 1)]
+    #[error("subdivision: face {face} names vertex {vertex}, there are {count}{}", numbers(*count))]
     Index {
         /// The face.
         face: usize,

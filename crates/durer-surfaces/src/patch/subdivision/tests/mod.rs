@@ -359,6 +359,7 @@ fn bad_meshes_are_named() {
     };
     assert_eq!(with(&|d| d.faces.clear()), "subdivision: it has no faces");
     assert_eq!(with(&|d| d.faces[2][1] = 8), "subdivision: face 2 names vertex 8, there are 8 (0 to 7)");
+    assert_eq!(with(&|d| d.vertices.clear()), "subdivision: face 0 names vertex 0, there are 0");
     assert_eq!(with(&|d| d.faces[1][2] = d.faces[1][0]), "subdivision: face 1 has vertex 4 twice");
     assert_eq!(with(&|d| d.faces[0].truncate(2)), "subdivision: face 0 has 2 vertices, it needs 3 at least");
     assert_eq!(
