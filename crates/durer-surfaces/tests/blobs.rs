@@ -14,7 +14,7 @@ use durer_math::{Affine, Dyadic, Point3, Ray, Vec3};
 use durer_surfaces::{
     All, Blob, BlobComponent, BlobError, BlobShape, LocalRay, Need, Placed, Root, RootKind, Sphere, Surface,
 };
-use durer_testkit::{drawn, report};
+use durer_testkit::{case_seed, drawn, report};
 use laws::{holds_together, polynomial, same};
 use solids::{Met, all};
 
@@ -30,7 +30,7 @@ fn a_blob_of_one_ball_is_a_ball() {
     let (mut met, mut rays) = (Met::default(), 0);
     for case in drawn(6_000) {
         rays += 1;
-        let ray = Dice::of_case(14, case).ray();
+        let ray = Dice(case_seed(14, case)).ray();
         let (a, b) = (all(&one, &ray), all(&exact, &ray));
         assert!(same(&a, &b), "{ray:?}\n blob {a:?}\n ball {b:?}");
         met.add(&a);
@@ -207,7 +207,7 @@ fn exact_sign(parts: &[BlobComponent], threshold: f64, ray: &Ray, t: f64) -> std
 fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
     let (mut met, mut rays) = (Met::default(), 0);
     for case in drawn(12) {
-        let mut dice = Dice::of_case(16, case);
+        let mut dice = Dice(case_seed(16, case));
         let parts: Vec<_> = (0..2 + dice.below(8))
             .map(|i| {
                 let strength =

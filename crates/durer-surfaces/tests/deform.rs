@@ -14,7 +14,7 @@ use durer_surfaces::{
     All, Axis, DeformError, Isosurface, LevelSet, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere,
     Surface, Torus, Warp,
 };
-use durer_testkit::{drawn, report};
+use durer_testkit::{case_seed, drawn, report};
 use std::sync::Arc;
 use witness::{Real, Solid, was};
 
@@ -104,7 +104,7 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
             let sample =
                 |p: Point3| solid.value(&rope.iter().rev().fold(p.to_array(), |p, warp| was(warp, &p)));
             for case in drawn(60) {
-                let mut dice = Dice::of_case(7 + 64 * n as u64 + solid as u64, case);
+                let mut dice = Dice(case_seed(7 + 64 * n as u64 + solid as u64, case));
                 let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
                 rays += 1;
                 let at = |t: f64| {

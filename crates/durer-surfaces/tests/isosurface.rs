@@ -11,7 +11,7 @@ use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };
-use durer_testkit::{drawn, report};
+use durer_testkit::{case_seed, drawn, report};
 use formulas::{Pen, all, iso};
 
 /// `(x - a)^2 + y^2 + z^2 - r^2`.
@@ -104,7 +104,7 @@ fn a_sphere_as_a_formula_is_the_sphere() {
         let exact = Sphere::new(Point3::ORIGIN, r).unwrap();
         let (mut met, mut unsure, mut widths) = (0, 0, Vec::new());
         for case in drawn(20_000) {
-            let ray = ray_at_a_ball(&mut Dice::of_case(1, case), r);
+            let ray = ray_at_a_ball(&mut Dice(case_seed(1, case)), r);
             rays += 1;
             let (a, b) = (all(&formula, &ray), all(&exact, &ray));
             assert!(same(&a, &b), "{ray:?}\n formula {a:?}\n sphere {b:?}");
@@ -220,7 +220,7 @@ fn two_formulas_of_a_torus_agree() {
     let (a, b) = (iso(&torus(1.0, 0.25), 1.5), iso(&quartic_torus(1.0, 0.25), 1.5));
     let (mut rays, mut met, mut unsure) = (0, 0, 0);
     for case in drawn(20_000) {
-        let mut dice = Dice::of_case(2, case);
+        let mut dice = Dice(case_seed(2, case));
         rays += 1;
         let radius = [1.25, 0.75, 1.0][dice.below(3) as usize];
         let ray = ray_at_a_ball(&mut dice, radius);
@@ -246,7 +246,7 @@ fn a_container_closes_what_it_cuts() {
     );
     let mut rays = 0;
     for case in drawn(20_000) {
-        let mut dice = Dice::of_case(3, case);
+        let mut dice = Dice(case_seed(3, case));
         rays += 1;
         let d = dice.vector();
         let ray = Ray::new((dice.vector() * 1.5).to_point(), d).with_range(f64::NEG_INFINITY, f64::INFINITY);

@@ -10,7 +10,7 @@ use durer_surfaces::{
     Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, LocalPoint, LocalRay, Need, Placed, Root,
     RootKind, Side, Surface, superellipsoid,
 };
-use durer_testkit::{drawn, report};
+use durer_testkit::{case_seed, drawn, report};
 use solids::{Met, all};
 
 fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u32) -> Julia {
@@ -167,7 +167,7 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
         let surface = JuliaSet::new(&data).unwrap();
         let mut met = Met::default();
         for case in drawn(60) {
-            let mut dice = Dice::of_case(21 + i as u64, case);
+            let mut dice = Dice(case_seed(21 + i as u64, case));
             rays += 1;
             let through = (dice.vector() * 0.7).to_point();
             let direction = dice.vector();

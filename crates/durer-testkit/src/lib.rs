@@ -22,5 +22,5 @@ pub use exact::{
     Clipped, Crossing, Exact, ExactBody, ExactForm, ExactLine, LineCache, Oracle, Surd, exact3, near,
 };
 pub use real_root::{RealRoot, ZeroOracle, real_roots};
-pub use soak::{dice, drawn, report};
+pub use soak::{case_seed, dice, drawn, report};
 pub use test_rng::{Feature, TestRng, aim};

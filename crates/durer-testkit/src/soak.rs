@@ -15,7 +15,12 @@ pub fn drawn(count: u64) -> Range<u64> {
 
 /// The random numbers of one of these cases: they differ for all seeds and cases.
 pub fn dice(seed: u64, case: u64) -> TestRng {
-    TestRng::new(seed.wrapping_mul(0x1_0000_0001).wrapping_add(case))
+    TestRng::new(case_seed(seed, case))
+}
+
+/// The seed of one of these cases.
+pub fn case_seed(seed: u64, case: u64) -> u64 {
+    seed.wrapping_mul(0x1_0000_0001).wrapping_add(case)
 }
 
 /// Prints how many rays obeyed the laws, for a soak test to add up.

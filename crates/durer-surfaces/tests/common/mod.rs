@@ -6,12 +6,6 @@ use durer_math::Vec3;
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    /// The random numbers of one case of a soak.
-    #[allow(dead_code, reason = "some tests have no cases")]
-    pub(crate) fn of_case(seed: u64, case: u64) -> Self {
-        Self(seed.wrapping_mul(0x1_0000_0001).wrapping_add(case))
-    }
-
     pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
