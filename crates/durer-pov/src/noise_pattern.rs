@@ -13,10 +13,10 @@
 //! ```
 //!
 //! `N` is the noise of the chosen generator. `n` is the underlying noise, around zero; `n'` and
-//! `n''` are the other components of learned noise, or `n` at shifted points. For the first generator, `m` is `N`. For the second, `m` is
-//! `2 N - 1/2`, clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the
-//! turbulence, and `a` is agate's own. All this was found from POV-Ray's values, with POV-Ray's own
-//! noise, and agrees with them to rounding.
+//! `n''` are the other components of learned noise, or durer's own `n` at shifted points. For the
+//! first generator, `m` is `N`. For the second, `m` is `2 N - 1/2`, clamped to `[0, 1]` (in `T`
+//! clamped only in the first octave). `t` is the turbulence, and `a` is agate's own. All this was
+//! found from POV-Ray's values, with POV-Ray's own noise, and agrees with them to rounding.
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::noise::NoiseTable;

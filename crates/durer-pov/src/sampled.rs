@@ -148,9 +148,9 @@ impl Parser<'_> {
         TextureContext { noise: self.options.noise.as_ref(), waves: self.scene.globals.number_of_waves }
     }
 
-    /// The components of the noise in formulas, if it is not durer's own.
+    /// The components of the noise, if it is not durer's own.
     pub(crate) fn noise_tables(&self) -> Option<[&'static NoiseTable; 3]> {
-        self.options.noise.as_ref().map(|noise| noise.components_in_formulas())
+        self.options.noise.as_ref().map(|noise| noise.components())
     }
 }
 

@@ -9,7 +9,7 @@
 //! `b`, `b + 4` and `b + 8`. The table is not part of durer: it is measured from an installed
 //! POV-Ray.
 
-use durer_math::noise::NoiseTable;
+use durer_math::noise::{self, NoiseTable};
 use durer_math::{F8, Point3, Vec3};
 
 /// The length of the table.
@@ -22,11 +22,7 @@ pub(crate) const PERIOD: usize = 4096;
 /// POV-Ray's noise with its table.
 #[derive(Clone, PartialEq)]
 pub struct LearnedNoise {
-    table: Box<[f64]>,
-    /// The permutation, twice.
-    order: Box<[u16]>,
-    /// The same noise for formulas: the scalar noise, which is the first component of the vector
-    /// noise, and the other two.
+    /// The scalar noise, which is the first component of the vector noise, and the other two.
     components: [&'static NoiseTable; 3],
 }
 
@@ -35,9 +31,6 @@ impl core::fmt::Debug for LearnedNoise {
         f.debug_struct("LearnedNoise").finish_non_exhaustive()
     }
 }
-
-/// The corners of a cell: each hash, and the weight and the offset of the point from it.
-type Corners = [(usize, f64, Vec3); 8];
 
 impl LearnedNoise {
     /// The length of the table.
@@ -58,13 +51,11 @@ impl LearnedNoise {
             });
             NoiseTable::shared(&points, once)
         };
-        let components = [component(0)?, component(4)?, component(8)?];
-        Some(Self { table: table.into(), order, components })
+        Some(Self { components: [component(0)?, component(4)?, component(8)?] })
     }
 
-    /// The noise in formulas: the scalar noise, which is the first component of the vector noise,
-    /// and the other two.
-    pub fn components_in_formulas(&self) -> [&'static NoiseTable; 3] {
+    /// The scalar noise, which is the first component of the vector noise, and the other two.
+    pub fn components(&self) -> [&'static NoiseTable; 3] {
         self.components
     }
 
@@ -75,54 +66,21 @@ impl LearnedNoise {
         hash(&order, x, y, z)
     }
 
-    fn corners(&self, p: Point3) -> Corners {
-        let (mut cells, mut t) = ([0; 3], [0.0; 3]);
-        for (axis, x) in p.to_array().into_iter().enumerate() {
-            // Just below a plane of the lattice a point counts as above it.
-            let whole = if x < 0.0 { (x - (1.0 - 1e-10)).trunc() } else { x.trunc() };
-            // Far away the cells say nothing any more.
-            cells[axis] = cell(if whole.abs() < 1e15 { whole as i64 } else { 0 });
-            t[axis] = x - whole;
-        }
-        let smooth = t.map(|t| t * t * (3.0 - 2.0 * t));
-        core::array::from_fn(|corner| {
-            let far = [corner & 1, corner >> 1 & 1, corner >> 2];
-            let along = |axis: usize| if far[axis] == 1 { smooth[axis] } else { 1.0 - smooth[axis] };
-            let offset = |axis: usize| t[axis] - far[axis] as f64;
-            let hash = hash(&self.order, cells[0] + far[0], cells[1] + far[1], cells[2] + far[2]);
-            (hash, along(0) * along(1) * along(2), Vec3::new(offset(0), offset(1), offset(2)))
-        })
-    }
-
-    fn sum(&self, corners: &Corners, shift: usize) -> f64 {
-        corners.iter().fold(0.0, |sum, &(hash, weight, v)| {
-            let b = hash + shift;
-            let t = |i: usize| self.table[b + i];
-            sum + weight * (0.5 * t(0) + t(1) * v.x + t(2) * v.y + t(3) * v.z)
-        })
-    }
-
     /// The noise at a point, about zero.
     pub fn value(&self, p: Point3) -> f64 {
-        self.sum(&self.corners(p), 0)
+        self.component(0, p.to_array().map(F8::splat).each_ref()).0[0]
     }
 
     /// The vector noise at a point.
     pub fn vector(&self, p: Point3) -> Vec3 {
-        let corners = self.corners(p);
-        Vec3::new(self.sum(&corners, 0), self.sum(&corners, 4), self.sum(&corners, 8))
+        let lanes = p.to_array().map(F8::splat);
+        let [x, y, z] = [0, 1, 2].map(|axis| self.component(axis, lanes.each_ref()).0[0]);
+        Vec3::new(x, y, z)
     }
 
-    /// A component of the vector noise at eight points: 0, 1 or 2.
-    pub fn components(&self, [x, y, z]: [&F8; 3], axis: usize) -> F8 {
-        F8(core::array::from_fn(|i| {
-            self.sum(&self.corners(Point3::new(x.0[i], y.0[i], z.0[i])), 4 * axis.min(2))
-        }))
-    }
-
-    /// The noise at eight points.
-    pub fn values(&self, [x, y, z]: [&F8; 3]) -> F8 {
-        F8(core::array::from_fn(|i| self.value(Point3::new(x.0[i], y.0[i], z.0[i]))))
+    /// A component of the vector noise at eight points: 0, which is the scalar noise, 1 or 2.
+    pub fn component(&self, axis: usize, p: [&F8; 3]) -> F8 {
+        noise::values(Some(self.components[axis.min(2)]), p)
     }
 }
 
@@ -157,10 +115,13 @@ pub(crate) fn order() -> Box<[u16]> {
 mod tests {
     use super::*;
 
+    /// Any table will do: these are not POV-Ray's numbers.
+    fn table() -> Vec<f64> {
+        (0..TABLE).map(|i| ((i * 37 % 101) as f64 - 50.0) / 50.0).collect()
+    }
+
     fn noise() -> LearnedNoise {
-        // Any table will do: these are not POV-Ray's numbers.
-        let table: Vec<f64> = (0..TABLE).map(|i| ((i * 37 % 101) as f64 - 50.0) / 50.0).collect();
-        LearnedNoise::new(&table).unwrap()
+        LearnedNoise::new(&table()).unwrap()
     }
 
     #[test]
@@ -178,26 +139,42 @@ mod tests {
         for x in -20..20 {
             let h = LearnedNoise::hash_at(x);
             let v = noise.vector(Point3::new(x as f64, 0.0, 0.0));
-            let wanted = [h, h + 4, h + 8].map(|i| noise.table[i] / 2.0);
+            let wanted = [h, h + 4, h + 8].map(|i| table()[i] / 2.0);
             assert_eq!(v.to_array(), wanted);
         }
     }
 
+    /// The definition, term by term.
+    fn defined(order: &[u16], table: &[f64], p: [f64; 3], shift: usize) -> f64 {
+        let whole = p.map(f64::floor);
+        let mut sum = 0.0;
+        for corner in 0..8 {
+            let far = [corner & 1, corner >> 1 & 1, corner >> 2];
+            let at = |axis: usize| cell(whole[axis] as i64) + far[axis];
+            let b = shift + hash(order, at(0), at(1), at(2));
+            let (mut weight, mut value) = (1.0, table[b] / 2.0);
+            for axis in 0..3 {
+                let t = p[axis] - whole[axis];
+                let smooth = t * t * (3.0 - 2.0 * t);
+                weight *= if far[axis] == 1 { smooth } else { 1.0 - smooth };
+                value += table[b + 1 + axis] * (t - far[axis] as f64);
+            }
+            sum += weight * value;
+        }
+        sum
+    }
+
     #[test]
-    fn formulas_have_the_same_noise() {
-        let noise = noise();
-        let [scalar, ..] = noise.components_in_formulas();
+    fn it_is_the_noise_of_the_definition() {
+        let (noise, order, table) = (noise(), order(), table());
         for k in 0..4096 {
-            let [x, y, z] = [0.37, -0.21, 17.11].map(|step| step * f64::from(k) - 1000.0);
-            let p = Point3::new(x, y, z);
-            let lanes = [x, y, z].map(F8::splat);
-            let in_formulas = |table| durer_math::noise::values(Some(table), lanes.each_ref()).0[0];
-            // Both are within 80 roundings.
+            let p = [0.37, -0.21, 17.11].map(|step| step * f64::from(k) - 1000.0);
+            let point = Point3::from(p);
+            // Both err by less than 80 roundings of 1, since no number of the table is above 1.
             let near = |a: f64, b: f64| (a - b).abs() <= 160.0 * durer_math::U;
-            assert!(near(in_formulas(scalar), noise.value(p)), "{p:?}");
-            let vector = noise.vector(p).to_array();
-            for (table, wanted) in noise.components_in_formulas().into_iter().zip(vector) {
-                assert!(near(in_formulas(table), wanted), "{p:?}");
+            assert!(near(noise.value(point), defined(&order, &table, p, 0)), "{p:?}");
+            for (axis, value) in noise.vector(point).to_array().into_iter().enumerate() {
+                assert!(near(value, defined(&order, &table, p, 4 * axis)), "{p:?}");
             }
         }
         // One table, however often it is read.

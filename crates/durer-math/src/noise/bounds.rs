@@ -185,7 +185,7 @@ impl Parts {
 /// along an axis.
 #[inline(always)]
 fn cellwise<L: Lattice>(lattice: L, p: [&I8; 3], out: &mut (I8, [I8; 3])) {
-    let parts = [0, 1, 2].map(|axis| Parts::new(lattice, p[axis], axis));
+    let parts = [Parts::new(lattice, p[0], 0), Parts::new(lattice, p[1], 1), Parts::new(lattice, p[2], 2)];
     let more = parts[0].more | parts[1].more | parts[2].more;
     if more.all() {
         return;

@@ -320,53 +320,75 @@ impl Sum<f64> {
             Self::of(&along, &Self::corners::<false, L>(lattice, &along))
         }
     }
-
-    /// The value and the derivatives.
-    #[inline(always)]
-    fn parts(self) -> (F8, [F8; 3]) {
-        let Self { v, d } = self;
-        (F8(v.0), [F8(d[0].0), F8(d[1].0), F8(d[2].0)])
-    }
 }
 
 /// The noise of eight points, rounded: about zero, from -1 to 1. It is durer's own without a table.
-#[inline(never)]
+#[inline(always)]
 pub fn values(table: Option<&NoiseTable>, p: [&F8; 3]) -> F8 {
-    Isa::detect().run_in_lanes(
-        #[inline(always)]
-        || match table {
-            None => F8(Sum::at(Own, p).v.0),
-            Some(table) => F8(Sum::at(table, p).v.0),
-        },
-    )
+    match table {
+        None => values_of(Own, p),
+        Some(table) => values_of(table, p),
+    }
 }
 
 /// The noise of eight points and its derivatives, rounded.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn slants(table: Option<&NoiseTable>, p: [&F8; 3]) -> (F8, [F8; 3]) {
+    match table {
+        None => slants_of(Own, p),
+        Some(table) => slants_of(table, p),
+    }
+}
+
+/// Bounds of noise on eight boxes.
+#[inline(always)]
+pub(crate) fn bounds(table: Option<&NoiseTable>, p: [&I8; 3]) -> I8 {
+    match table {
+        None => bounds_of(Own, p),
+        Some(table) => bounds_of(table, p),
+    }
+}
+
+/// Bounds on noise and its derivatives on eight boxes.
+#[inline(always)]
+pub(crate) fn slopes(table: Option<&NoiseTable>, p: [&I8; 3]) -> (I8, [I8; 3]) {
+    match table {
+        None => slopes_of(Own, p),
+        Some(table) => slopes_of(table, p),
+    }
+}
+
+#[inline(never)]
+fn values_of<L: Lattice>(lattice: L, p: [&F8; 3]) -> F8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || match table {
-            None => Sum::at(Own, p).parts(),
-            Some(table) => Sum::at(table, p).parts(),
+        || F8(Sum::at(lattice, p).v.0),
+    )
+}
+
+#[inline(never)]
+fn slants_of<L: Lattice>(lattice: L, p: [&F8; 3]) -> (F8, [F8; 3]) {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || {
+            let Sum { v, d } = Sum::at(lattice, p);
+            (F8(v.0), [F8(d[0].0), F8(d[1].0), F8(d[2].0)])
         },
     )
 }
 
-/// Bounds of noise on eight boxes.
 #[inline(never)]
-pub(crate) fn bounds(table: Option<&NoiseTable>, p: [&I8; 3]) -> I8 {
-    slopes(table, p).0
-}
-
-/// Bounds on noise and its derivatives on eight boxes.
-#[inline(never)]
-pub(crate) fn slopes(table: Option<&NoiseTable>, p: [&I8; 3]) -> (I8, [I8; 3]) {
+fn bounds_of<L: Lattice>(lattice: L, p: [&I8; 3]) -> I8 {
     Isa::detect().run_in_lanes(
         #[inline(always)]
-        || match table {
-            None => bounds::bounds_in_cell(Own, p),
-            Some(table) => bounds::bounds_in_cell(table, p),
-        },
+        || bounds::bounds_in_cell(lattice, p).0,
+    )
+}
+
+#[inline(never)]
+fn slopes_of<L: Lattice>(lattice: L, p: [&I8; 3]) -> (I8, [I8; 3]) {
+    Isa::detect().run_in_lanes(
+        #[inline(always)]
+        || bounds::bounds_in_cell(lattice, p),
     )
 }

@@ -48,7 +48,7 @@ impl Grains {
     pub(crate) fn values(&self, p: Vec3<F8>) -> F8 {
         match self {
             Self::Own => noise::values(None, [&p.x, &p.y, &p.z]),
-            Self::Learned(learned) => learned.values([&p.x, &p.y, &p.z]),
+            Self::Learned(learned) => learned.component(0, [&p.x, &p.y, &p.z]),
         }
     }
 
@@ -59,7 +59,7 @@ impl Grains {
                 let [x, y, z] = ELSEWHERE[axis];
                 self.values(if axis == 0 { p } else { p + Vec3::<F8>::splat(Vec3::new(x, y, z)) })
             }
-            Self::Learned(learned) => learned.components([&p.x, &p.y, &p.z], axis),
+            Self::Learned(learned) => learned.component(axis, [&p.x, &p.y, &p.z]),
         }
     }
 

@@ -113,11 +113,11 @@ impl<'a> CentredRay<'a> {
         if o_err.is_finite() && d_err.is_finite() { Self { o, d, o_err, d_err, ..self } } else { self }
     }
 
-    /// The caller's parameter for `s`, rounded.
+    /// The caller's parameter for `s`, rounded, but never infinite.
     #[inline(always)]
     pub fn t(&self, s: f64) -> f64 {
         let (hi, lo, _) = self.clock.shift();
-        hi + (lo + scale2(s, self.clock.k))
+        (hi + (lo + scale2(s, self.clock.k))).clamp(f64::MIN, f64::MAX)
     }
 
     /// The caller's bracket for the bracket `[lo, hi]` of `s`, rounded outward.
@@ -126,6 +126,16 @@ impl<'a> CentredRay<'a> {
         #[inline(always)]
         fn outward(x: f64, away: f64) -> f64 {
             if away < 0.0 { x.next_down() } else { x.next_up() }
+        }
+        // A product beyond the range of f64 is at least the greatest number: the sum with the shift may
+        // be within the range again.
+        #[inline(always)]
+        fn within_range(x: f64, away: f64) -> f64 {
+            match away < 0.0 {
+                true if x > f64::MAX => f64::MAX,
+                false if x < f64::MIN => f64::MIN,
+                _ => x,
+            }
         }
         // A rounding is at most half an ulp: stepping outward keeps the enclosure.
         #[inline(always)]
@@ -138,7 +148,7 @@ impl<'a> CentredRay<'a> {
             let scaled = scale2(s, k);
             let scaled =
                 if scaled.abs() < f64::MIN_POSITIVE && s != 0.0 { outward(scaled, away) } else { scaled };
-            let low = sum(shift_lo, scaled, away);
+            let low = sum(shift_lo, within_range(scaled, away), away);
             let low = if err > 0.0 { outward(away.mul_add(err, low), away) } else { low };
             sum(shift_hi, low, away)
         }
@@ -147,13 +157,14 @@ impl<'a> CentredRay<'a> {
     }
 
     /// Whether a crossing in the caller's bracket `[lo, hi]` is in the ray's closed range; `None`
-    /// if the bracket straddles an end.
+    /// if the bracket straddles an end. A crossing that is not less than the greatest f64 is not.
     #[inline(always)]
     pub fn admits(&self, lo: f64, hi: f64) -> Option<bool> {
         let (t_min, t_max) = (self.ray.t_min, self.ray.t_max);
-        if lo >= t_min && hi <= t_max {
+        let beyond = lo >= f64::MAX || hi <= f64::MIN;
+        if lo >= t_min && hi <= t_max && !beyond {
             Some(true)
-        } else if hi < t_min || lo > t_max {
+        } else if hi < t_min || lo > t_max || beyond {
             Some(false)
         } else {
             None
