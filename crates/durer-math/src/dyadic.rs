@@ -67,11 +67,19 @@ impl core::ops::DerefMut for Limbs {
 /// assert_eq!(sum.cmp(&Dyadic::from(0.3)), core::cmp::Ordering::Greater);
 /// assert_eq!((Dyadic::from(1e300) + Dyadic::from(1e-300)).sign(), Some(core::cmp::Ordering::Greater));
 /// ```
-#[derive(Clone)]
 pub struct Dyadic {
     negative: bool,
     exponent: i64,
     limbs: Limbs,
+}
+
+/// Copies and operators are never inlined: the exact steps of all predicates consist of them, and
+/// would otherwise be a tenth of what is compiled.
+impl Clone for Dyadic {
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        Self { negative: self.negative, exponent: self.exponent, limbs: self.limbs.clone() }
+    }
 }
 
 impl Dyadic {
@@ -435,6 +443,7 @@ macro_rules! operator {
     ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
         impl $trait for &Dyadic {
             type Output = Dyadic;
+            #[inline(never)]
             fn $method(self, other: &Dyadic) -> Dyadic {
                 let ($a, $b) = (self, other);
                 $body
@@ -442,6 +451,7 @@ macro_rules! operator {
         }
         impl $trait for Dyadic {
             type Output = Self;
+            #[inline(never)]
             fn $method(self, other: Self) -> Self {
                 let ($a, $b) = (&self, &other);
                 $body

@@ -390,11 +390,16 @@ pub fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) -> bool
 }
 
 /// The equation that is being solved.
-struct Work<'w, L, F, const N: usize> {
+struct Work<'w, L: ?Sized, F: ?Sized, const N: usize> {
     line: &'w L,
     limits: &'w Limits,
-    emit: F,
+    emit: &'w mut F,
 }
+
+/// The equation in the steps that are rare. Their code is long, so all lines of a degree share one
+/// copy of it.
+type RareWork<'w, const N: usize> =
+    Work<'w, dyn Along<N> + 'w, dyn FnMut(&Found<'_>) -> ControlFlow<()> + 'w, N>;
 
 /// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits
 /// may be left out.
@@ -403,7 +408,7 @@ pub fn solve<const N: usize, L: Along<N>>(
     line: &L,
     stretch: Stretch,
     limits: &Limits,
-    emit: impl FnMut(&Found<'_>) -> ControlFlow<()>,
+    mut emit: impl FnMut(&Found<'_>) -> ControlFlow<()>,
 ) {
     let a = line.double();
     match stretch {
@@ -413,42 +418,30 @@ pub fn solve<const N: usize, L: Along<N>>(
             if Bernstein::quick(&scaled.c, scaled.slack()).count() == Count::None {
                 return;
             }
-            let mut work = Work::<_, _, N> { line, limits, emit };
-            work.within(&scaled, mid, half);
+            Work::<_, _, N> { line, limits, emit: &mut emit }.within(&scaled, mid, half);
         }
         Stretch::Everywhere => {
-            let mut work = Work::<_, _, N> { line, limits, emit };
-            work.everywhere(&Scaled::new(&a, 1.0));
+            RareWork::<N> { line, limits, emit: &mut emit }.everywhere(&a);
         }
     }
 }
 
 impl<L: Along<N>, F: FnMut(&Found<'_>) -> ControlFlow<()>, const N: usize> Work<'_, L, F, N> {
+    /// Within `half` of `mid`.
     #[inline(always)]
     fn within(&mut self, scaled: &Scaled<f64, N>, mid: f64, half: f64) {
         let place = PartToLine::Linear { mid, half };
         if let Err(Doubt(x)) = self.settle_double(scaled, place) {
-            self.climb(place, x);
+            RareWork { line: self.line, limits: self.limits, emit: self.emit }.climb(place, x);
         }
     }
+}
 
-    /// The step after f64, from `x` on.
-    #[cold]
-    #[inline(never)]
-    fn climb(&mut self, place: PartToLine, x: f64) {
-        let PartToLine::Linear { mid, half } = place else { return };
-        let doubt = Isa::detect().run(
-            #[inline(always)]
-            || match self.line.wide() {
-                Some(a) => self.settle(&Scaled::new(&a, half), x, place).err(),
-                None => Some(Dyadic::from(x)),
-            },
-        );
-        if let Some(x) = doubt {
-            self.exactly(mid, &x * &Dyadic::from(half), half);
-        }
-    }
-
+impl<L, F, const N: usize> Work<'_, L, F, N>
+where
+    L: Along<N> + ?Sized,
+    F: FnMut(&Found<'_>) -> ControlFlow<()> + ?Sized,
+{
     /// In f64, on a stretch from its start.
     #[inline(always)]
     fn settle_double(
@@ -489,6 +482,25 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> ControlFlow<()>, const N: usize> Work<
             },
         )
     }
+}
+
+impl<const N: usize> RareWork<'_, N> {
+    /// The step after f64, from `x` on.
+    #[cold]
+    #[inline(never)]
+    fn climb(&mut self, place: PartToLine, x: f64) {
+        let PartToLine::Linear { mid, half } = place else { return };
+        let doubt = Isa::detect().run(
+            #[inline(always)]
+            || match self.line.wide() {
+                Some(a) => self.settle(&Scaled::new(&a, half), x, place).err(),
+                None => Some(Dyadic::from(x)),
+            },
+        );
+        if let Some(x) = doubt {
+            self.exactly(mid, &x * &Dyadic::from(half), half);
+        }
+    }
 
     /// On a stretch from `from` on; the place of a doubt is exact, as f64 could round it beyond a
     /// root that is still to be found.
@@ -525,42 +537,51 @@ impl<L: Along<N>, F: FnMut(&Found<'_>) -> ControlFlow<()>, const N: usize> Work<
     }
 
     /// The whole line: what is left of -1, what is between, what is right of 1.
+    #[inline(never)]
+    fn everywhere(&mut self, a: &[EFloat; N]) {
+        let doubt = Isa::detect().run(
+            #[inline(always)]
+            || self.everywhere_but_exactly(&Scaled::new(a, 1.0)),
+        );
+        if let Some(from) = doubt {
+            self.exactly(0.0, from, f64::MAX);
+        }
+    }
+
+    /// The whole line; from where on in doubt, if anywhere.
     #[inline(always)]
-    fn everywhere(&mut self, scaled: &Scaled<f64, N>) {
+    fn everywhere_but_exactly(&mut self, scaled: &Scaled<f64, N>) -> Option<Dyadic> {
         let tails = match self.tails(scaled) {
             Some(tails) => Some(tails),
             None => self.line.wide().and_then(|a| self.tails(&Scaled::new(&a, 1.0))),
         };
         let Some(tails) = tails else {
-            self.exactly(0.0, Dyadic::from(f64::MIN), f64::MAX);
-            return;
+            return Some(Dyadic::from(f64::MIN));
         };
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.1 <= 0.0) {
             if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)).is_break() {
-                return;
+                return None;
             }
         }
         let place = PartToLine::Linear { mid: 0.0, half: 1.0 };
         match self.settle_double(scaled, place) {
-            Ok(ControlFlow::Break(())) => return,
+            Ok(ControlFlow::Break(())) => return None,
             Ok(ControlFlow::Continue(())) => {}
             Err(Doubt(x)) => {
                 let wide = self.line.wide().map(|a| Scaled::new(&a, 1.0));
                 match wide.map_or_else(|| Err(Dyadic::from(x)), |wide| self.settle(&wide, x, place)) {
-                    Ok(ControlFlow::Break(())) => return,
+                    Ok(ControlFlow::Break(())) => return None,
                     Ok(ControlFlow::Continue(())) => {}
-                    Err(x) => {
-                        self.exactly(0.0, x, f64::MAX);
-                        return;
-                    }
+                    Err(x) => return Some(x),
                 }
             }
         }
         for &(ends, found, rising) in tails.iter().rev().filter(|t| t.0.0 >= 0.0) {
             if (self.emit)(&named(PartToLine::Inverse, ends, found, rising)).is_break() {
-                return;
+                break;
             }
         }
+        None
     }
 
     /// The roots beyond -1 and 1, as inverses, ascending; `None` where there is a doubt.

@@ -21,6 +21,7 @@ use crate::point::least_step;
 use crate::ray::PREVIEW_WIDTH;
 use crate::{CentredRay, End, LocalPoint, LocalRay, RingRay, Root, RootKind, Side};
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
@@ -153,13 +154,11 @@ pub(crate) trait Line {
     #[cold]
     #[inline(never)]
     fn sign_climb<P: AlongRay>(&self, p: &P) -> Option<Ordering> {
-        Isa::detect().run(
+        let dd = Isa::detect().run(
             #[inline(always)]
-            || {
-                let dd = self.double().and_then(|ray| p.eval(&ray)?.sign());
-                dd.or_else(|| p.eval(&self.exact()?)?.sign())
-            },
-        )
+            || self.double().and_then(|ray| p.eval(&ray)?.sign()),
+        );
+        dd.or_else(|| p.eval(&self.exact()?)?.sign())
     }
 }
 
@@ -288,50 +287,53 @@ impl<'a> Probe<'a> {
     #[cold]
     #[inline(never)]
     fn crossing_climb<F: PlaneForm>(&self, plane: &F) -> Option<Crossing> {
-        Isa::detect().run(
+        let in_double = Isa::detect().run(
             #[inline(always)]
-            || {
-                // A slope of zero is certain already here if each of its terms is zero.
-                if plane.slope(&self.running()).sign() == Some(Ordering::Equal) {
-                    return None;
-                }
-                let mut best = None;
-                if let Some(ray) = self.ray.in_double() {
-                    let slope = plane.slope(&ray);
-                    if let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) {
-                        if sign.is_eq() {
-                            return None;
-                        }
-                        let s = -(height / slope);
-                        let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
-                        if self.is_narrow(&crossing) {
-                            return Some(crossing);
-                        }
-                        best = Some(crossing);
-                    }
-                }
-                // The remaining cases: rays that are almost parallel, numbers at the ends of the
-                // range of f64, inexact rays.
-                let exact = self.ray.in_ring::<Dyadic>().and_then(|ray| {
-                    let slope = plane.slope(&ray);
-                    let (low, high) = plane.height_bounds(&ray)?;
-                    Some((slope, low, high))
-                });
-                if let Some((slope, low, high)) = exact {
-                    if slope.is_zero() {
-                        return None;
-                    }
-                    let most = Dyadic::exact(f64::MAX) * slope.clone().abs();
-                    let beyond = low.clone().abs() > most && high.clone().abs() > most;
-                    let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
-                    let middle = 0.5 * lo + 0.5 * hi;
-                    // Only a crossing that is certainly beyond the range of f64 is reported there.
-                    let s = if beyond { middle } else { middle.clamp(f64::MIN, f64::MAX) };
-                    best = Some(self.bracketed(s, lo, hi, slope.exact_sign()));
-                }
-                best
-            },
-        )
+            || self.crossing_in_double(plane),
+        );
+        let best = match in_double {
+            ControlFlow::Break(crossing) => return crossing,
+            ControlFlow::Continue(best) => best,
+        };
+        // The remaining cases: rays that are almost parallel, numbers at the ends of the range of
+        // f64, inexact rays.
+        let Some(ray) = self.ray.in_ring::<Dyadic>() else { return best };
+        let slope = plane.slope(&ray);
+        let Some((low, high)) = plane.height_bounds(&ray) else { return best };
+        if slope.is_zero() {
+            return None;
+        }
+        let most = Dyadic::exact(f64::MAX) * slope.clone().abs();
+        let beyond = low.clone().abs() > most && high.clone().abs() > most;
+        let (lo, hi) = quotient_bounds(&-high, &-low, &slope);
+        let middle = 0.5 * lo + 0.5 * hi;
+        // Only a crossing that is certainly beyond the range of f64 is reported there.
+        let s = if beyond { middle } else { middle.clamp(f64::MIN, f64::MAX) };
+        Some(self.bracketed(s, lo, hi, slope.exact_sign()))
+    }
+
+    /// The crossing in double-double: `Break` if it is decided, else the best bracket so far.
+    #[inline(always)]
+    fn crossing_in_double<F: PlaneForm>(&self, plane: &F) -> ControlFlow<Option<Crossing>, Option<Crossing>> {
+        // A slope of zero is certain already in f64 if each of its terms is zero.
+        if plane.slope(&self.running()).sign() == Some(Ordering::Equal) {
+            return ControlFlow::Break(None);
+        }
+        let Some(ray) = self.ray.in_double() else { return ControlFlow::Continue(None) };
+        let slope = plane.slope(&ray);
+        let (Some(sign), Some(height)) = (slope.sign(), plane.height(&ray)) else {
+            return ControlFlow::Continue(None);
+        };
+        if sign.is_eq() {
+            return ControlFlow::Break(None);
+        }
+        let s = -(height / slope);
+        let crossing = self.bracketed(s.value(), s.lo(), s.hi(), sign);
+        if self.is_narrow(&crossing) {
+            ControlFlow::Break(Some(crossing))
+        } else {
+            ControlFlow::Continue(Some(crossing))
+        }
     }
 
     /// Whether a bracket is narrow enough.
@@ -379,37 +381,36 @@ impl<'a> Probe<'a> {
     #[cold]
     #[inline(never)]
     fn admits_climb<F: PlaneForm>(&self, plane: &F, crossing: &Crossing) -> bool {
-        Isa::detect().run(
-            #[inline(always)]
-            || {
-                let holds = |end: End| {
-                    let at = self.ray.end(end);
-                    let (surely, never) = match end {
-                        End::Min => (crossing.lo >= at, crossing.hi < at),
-                        End::Max => (crossing.hi <= at, crossing.lo > at),
-                    };
-                    if surely || never {
-                        return surely;
-                    }
-                    let Some(height) = self.height_at_end(plane, end) else { return true };
-                    // Before the crossing the height has the sign opposite to the slope's.
-                    let ahead = if crossing.sign > 0 { height.reverse() } else { height };
-                    match end {
-                        End::Min => ahead.is_ge(),
-                        End::Max => ahead.is_le(),
-                    }
-                };
-                holds(End::Min) && holds(End::Max)
-            },
-        )
+        [End::Min, End::Max].into_iter().all(|end| {
+            let at = self.ray.end(end);
+            let (surely, never) = match end {
+                End::Min => (crossing.lo >= at, crossing.hi < at),
+                End::Max => (crossing.hi <= at, crossing.lo > at),
+            };
+            if surely || never {
+                return surely;
+            }
+            let Some(height) = self.height_at_end(plane, end) else { return true };
+            // Before the crossing the height has the sign opposite to the slope's.
+            let ahead = if crossing.sign > 0 { height.reverse() } else { height };
+            match end {
+                End::Min => ahead.is_ge(),
+                End::Max => ahead.is_le(),
+            }
+        })
     }
 
     /// The sign of the height at an end of the range.
-    #[inline(always)]
     fn height_at_end<F: PlaneForm>(&self, plane: &F, end: End) -> Option<Ordering> {
-        let dd = self.ray.in_double().map(|ray| advanced(ray, &self.ray.end_in_ring(end)));
-        if let Some(sign) = dd.and_then(|ray| plane.height(&ray)?.sign()) {
-            return Some(sign);
+        let dd = Isa::detect().run(
+            #[inline(always)]
+            || {
+                let ray = advanced(self.ray.in_double()?, &self.ray.end_in_ring(end));
+                plane.height(&ray)?.sign()
+            },
+        );
+        if dd.is_some() {
+            return dd;
         }
         let ray = self.ray.in_ring::<Dyadic>()?;
         plane.exact_side(&advanced(ray, &self.ray.end_in_ring(end)))
@@ -651,7 +652,7 @@ pub(crate) fn ratios<R: Ratios>(probe: &Probe<'_>, r: &R) -> [EFloat; 2] {
 #[cold]
 #[inline(never)]
 fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[EFloat; 2]> {
-    Isa::detect().run(
+    let dd = Isa::detect().run(
         #[inline(always)]
         || {
             let [a, b, d] = r.eval(&probe.double()?);
@@ -659,21 +660,21 @@ fn ratios_climb<R: Ratios>(probe: &Probe<'_>, r: &R) -> Option<[EFloat; 2]> {
             fn nearest(x: EFloat<Dd>) -> EFloat {
                 EFloat::with_error(x.v.hi, (x.e + x.v.lo.abs()) * (1.0 + 8.0 * U))
             }
-            let dd = [nearest(a / d), nearest(b / d)];
-            if dd.iter().all(|x| x.e <= TIGHT) {
-                return Some(dd);
-            }
-            let Some(ray) = probe.exact() else { return Some(dd) };
-            let [a, b, d] = r.eval(&ray);
-            if d.is_zero() {
-                return None;
-            }
-            Some([a, b].map(|n| {
-                let (lo, hi) = quotient_bounds(&n, &n, &d);
-                EFloat::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
-            }))
+            Some([nearest(a / d), nearest(b / d)])
         },
-    )
+    )?;
+    if dd.iter().all(|x| x.e <= TIGHT) {
+        return Some(dd);
+    }
+    let Some(ray) = probe.exact() else { return Some(dd) };
+    let [a, b, d] = r.eval(&ray);
+    if d.is_zero() {
+        return None;
+    }
+    Some([a, b].map(|n| {
+        let (lo, hi) = quotient_bounds(&n, &n, &d);
+        EFloat::with_error(0.5 * lo + 0.5 * hi, (hi - lo) * (1.0 + 8.0 * U))
+    }))
 }
 
 /// A plane through three points, relative to a centre; its normal is `(b - a) x (c - a)`.

@@ -4,7 +4,7 @@ use durer_geometry::{Builder, CompoundBuilder, LeafId, ObjectId, Part, Primitive
 use durer_math::{Aabb, Affine};
 use durer_surfaces::{Accelerate, Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity};
 
-use super::camera_media::{Enclosure, Held};
+use super::camera_media::Enclosure;
 
 /// Where a surface is added.
 pub(super) enum To<'b> {
@@ -20,7 +20,7 @@ pub(super) struct Target<'b> {
     pub(super) clips: Vec<Region>,
     pub(super) inverse: bool,
     /// The solid, if camera rays may start inside it.
-    pub(super) inside: Option<Box<dyn Enclosure>>,
+    pub(super) inside: Option<Enclosure>,
     /// A box that contains the starts of camera rays.
     pub(super) camera: Aabb,
 }
@@ -67,7 +67,7 @@ impl Target<'_> {
 
     /// Keeps the closed, unclipped solid if camera rays may start inside it: the scene language
     /// uses it to find the media around the camera.
-    pub(super) fn contain<S: Accelerate + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
+    pub(super) fn contain<S: Algebraic + Clone + 'static>(&mut self, solid: &S, map: Option<&Affine>) {
         let bounds = || map.map_or_else(|| solid.bounds(), |m| solid.bounds_through(m));
         if self.camera.is_empty()
             || solid.solidity() != Solidity::Solid
@@ -75,11 +75,8 @@ impl Target<'_> {
         {
             return;
         }
-        let (solid, inverse) = (solid.clone(), self.inverse);
-        let inside: Box<dyn Enclosure> = match map {
-            None => Box::new(Held { solid, inverse }),
-            Some(map) => Box::new(Held { solid: Placed::new(solid, *map), inverse }),
-        };
+        let solid = erased(solid.clone(), map);
+        let inside = if self.inverse { Enclosure::Complement(solid) } else { Enclosure::Solid(solid) };
         self.inside = (inside.holds_all(&self.camera) != Some(false)).then_some(inside);
     }
 

@@ -73,10 +73,11 @@ impl Lowering {
 
     /// Keeps a body in which rays of the camera may start.
     fn stand_in(&mut self, body: &Arc<Compound>, medium: u32) {
-        if self.camera.is_empty() || body.holds_all(&self.camera) == Some(false) {
+        let inside = Enclosure::Compound(Arc::clone(body));
+        if self.camera.is_empty() || inside.holds_all(&self.camera) == Some(false) {
             return;
         }
-        self.around_camera.push((medium, Box::new(Arc::clone(body))));
+        self.around_camera.push((medium, inside));
     }
 
     /// The intersection of `part` and the regions that clip it.

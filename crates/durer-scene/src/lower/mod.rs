@@ -44,7 +44,7 @@ pub struct Lowered {
     /// Warnings about the scene. It is rendered nevertheless.
     pub warnings: Vec<(Option<Place>, String)>,
     primitives: PrimitiveLooks,
-    around_camera: Vec<(u32, Box<dyn Enclosure>)>,
+    around_camera: Vec<(u32, Enclosure)>,
 }
 
 /// Why a scene has no geometry, and the place in the text that is to blame.
@@ -262,7 +262,7 @@ struct Lowering {
     /// The medium of all clear parts of the current object of the scene that have no interior.
     common_medium: Option<u32>,
     warnings: Vec<(Option<Place>, String)>,
-    around_camera: Vec<(u32, Box<dyn Enclosure>)>,
+    around_camera: Vec<(u32, Enclosure)>,
     /// Meshes that several objects share.
     shared: shared::Meshes,
     object: ObjectId,

@@ -22,7 +22,7 @@ use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
 /// The result of lowering a shape.
 pub(super) enum Built {
     /// It is in the geometry; where it is solid and asked for, with the test for its inside.
-    Done(Option<Box<dyn Enclosure>>),
+    Done(Option<Enclosure>),
     /// It has no points, for this reason.
     Nothing(String),
 }

@@ -9,7 +9,7 @@
 
 use super::region::{FaceSet, Region};
 use crate::packet::FilterSource;
-use crate::quadric::boolean_faces::{Frame, QuadricFaces};
+use crate::quadric::boolean_faces::{Faces, Frame, QuadricFaces};
 use crate::quadric::solid::QuadricSolid;
 use crate::sphere::Sphere;
 use crate::{Accelerate, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
@@ -48,28 +48,32 @@ pub trait Algebraic: Accelerate {
     }
 }
 
-/// The polynomial of a face along a ray in any ring that can hold the ray.
-#[inline(always)]
-fn along<S: QuadricFaces, T: Ring>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<T>> {
-    let Frame { centre, scale, .. } = shape.frame();
-    Some(shape.form::<T>(face as usize).along(&ray.in_ring_from(centre, scale)?))
+/// The exact polynomial of a face along a ray. One copy of the code serves all shapes.
+fn exact_along(shape: &dyn Faces, frame: Frame, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+    Some(shape.exact(face as usize).along(&ray.in_ring_from(frame.centre, frame.scale)?))
 }
 
 /// The same in double-doubles.
-fn wide_along<S: QuadricFaces>(shape: &S, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
+fn wide_along(
+    shape: &dyn Faces,
+    frame: Frame,
+    face: u32,
+    ray: &LocalRay<'_>,
+) -> Option<Quadratic<EFloat<Dd>>> {
+    let form = shape.double(face as usize);
     Isa::detect().run(
         #[inline(always)]
-        || along(shape, face, ray),
+        || Some(form.along(&ray.in_ring_from(frame.centre, frame.scale)?)),
     )
 }
 
 impl<S: QuadricFaces> Algebraic for QuadricSolid<S> {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        along(self.shape(), face, ray)
+        exact_along(self.shape(), self.shape().frame(), face, ray)
     }
 
     fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
-        wide_along(self.shape(), face, ray)
+        wide_along(self.shape(), self.shape().frame(), face, ray)
     }
 
     fn bounds_among(&self, regions: &[Region], map: Option<&Affine>) -> Aabb {
@@ -85,11 +89,11 @@ impl<S: QuadricFaces> Algebraic for QuadricSolid<S> {
 
 impl Algebraic for Sphere {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        along(self, face, ray)
+        exact_along(self, self.frame(), face, ray)
     }
 
     fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
-        wide_along(self, face, ray)
+        wide_along(self, self.frame(), face, ray)
     }
 }
 
