@@ -84,7 +84,7 @@ pub enum Shape {
     /// A plane polygon.
     Polygon {
         /// Its loops, one or more. Their first points are not repeated at their ends.
-        loops: Vec<Vec<Point3>>,
+        loops: Arc<[Vec<Point3>]>,
         /// The rule that says which points are inside the loops.
         rule: FillRule,
     },
@@ -98,7 +98,7 @@ pub enum Shape {
         /// The greatest sum of powers.
         order: u32,
         /// All coefficients, by falling powers of x, then of y, then of z.
-        coefficients: Box<[f64]>,
+        coefficients: Arc<[f64]>,
     },
     /// A tube around a circle about the y axis.
     Torus {
@@ -185,7 +185,7 @@ pub enum Shape {
         n: f64,
     },
     /// Where the fields of some balls and sausages add up to a value.
-    Blob(Box<Blob>),
+    Blob(Arc<Blob>),
     /// A Julia set.
     Julia(Box<Julia>),
     /// A leaf under all products of some contractions.
@@ -203,6 +203,57 @@ pub enum Shape {
     /// A solid made of solids. Parts are placed in its own frame; a union among them is the solid
     /// of all its parts.
     Csg(Operation, Vec<Object>),
+}
+
+impl Shape {
+    /// What the shape is called in messages, with its article.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "a sphere",
+            Self::Box { .. } => "a box",
+            Self::Cylinder { .. } => "a cylinder",
+            Self::Cone { .. } => "a cone",
+            Self::Plane { .. } => "a plane",
+            Self::Disc { .. } => "a disc",
+            Self::Parallelogram { .. } => "a parallelogram",
+            Self::Triangle(_) => "a triangle",
+            Self::SmoothTriangle(_) => "a smooth triangle",
+            Self::Polygon { .. } => "a polygon",
+            Self::Mesh(_) => "a mesh",
+            Self::Quadric(_) => "a quadric",
+            Self::Polynomial { .. } => "a polynomial",
+            Self::Torus { .. } => "a torus",
+            Self::Cyclide { .. } => "a cyclide",
+            Self::Prism(_) => "a prism",
+            Self::StraightSweep(_) | Self::PathSweep(_) => "a sweep",
+            Self::SphereSweep(..) => "a sphere sweep",
+            Self::Sor(_) => "a sor",
+            Self::Lathe(..) => "a lathe",
+            Self::Patch(_) => "a patch",
+            Self::TriangularPatch(_) => "a triangular patch",
+            Self::Nurbs(_) => "a nurbs surface",
+            Self::Subdivision(_) => "a subdivision surface",
+            Self::Parametric(_) => "a parametric",
+            Self::Sewn(_) => "a sewn surface",
+            Self::Ovus { .. } => "an ovus",
+            Self::Lemon { .. } => "a lemon",
+            Self::Named(_) => "a named quadric",
+            Self::SphericalSector { .. } => "a spherical sector",
+            Self::Isosurface(_) => "an isosurface",
+            Self::Superellipsoid { .. } => "a superellipsoid",
+            Self::Blob(_) => "a blob",
+            Self::Julia(_) => "a Julia set",
+            Self::Ifs(_) => "an ifs",
+            Self::HeightField(_) => "a height field",
+            Self::Terrain(_) => "a terrain",
+            Self::Deform(_) => "a deformed solid",
+            Self::Own(_) => "a surface of the program's own",
+            Self::Union(_) => "a union",
+            Self::Csg(Operation::Merge, _) => "a merge",
+            Self::Csg(Operation::Intersection, _) => "an intersection",
+            Self::Csg(Operation::Difference, _) => "a difference",
+        }
+    }
 }
 
 /// How solids make a solid.
