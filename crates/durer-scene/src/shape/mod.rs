@@ -1,15 +1,35 @@
 //! Shapes: what the constructors of all surfaces take, as numbers.
 
+mod blob;
+mod container;
+mod deform;
+mod isosurface;
+mod mesh;
+mod named_quadric;
+mod parametric;
+mod patch;
+mod prism;
+mod straight_sweep;
+
 use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
-use durer_surfaces::{DynSurface, StraightPath, StraightPathError};
+use durer_surfaces::DynSurface;
 
+pub use self::blob::Blob;
+pub use self::container::Container;
+pub use self::deform::Deform;
+pub use self::isosurface::Isosurface;
+pub use self::mesh::{Face, FaceTexture, Mesh};
+pub use self::named_quadric::{NamedQuadric, QuadricKind};
+pub use self::parametric::Parametric;
+pub use self::patch::{Patch, TriangularPatch};
+pub use self::prism::{Prism, Spline, Sweep};
+pub use self::straight_sweep::StraightSweep;
 use crate::{
-    BlobComponent, FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep, SewnData,
-    SubdivisionData, SweepSpline, Terrain, Texture, Warp,
+    FillRule, HeightField, Ifs, Julia, LatheSpline, NurbsData, Object, PathSweep, SewnData, SubdivisionData,
+    SweepSpline, Terrain,
 };
-use durer_formula::Formula;
 
 /// A surface in its object's own frame, not yet checked: lowering builds it and names what is
 /// wrong.
@@ -265,222 +285,4 @@ pub enum Operation {
     Intersection,
     /// The first part without all others.
     Difference,
-}
-
-/// The points of a container where a function of `x`, `y` and `z` has the value `threshold`; the
-/// inside is where it is below.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Isosurface {
-    /// The function.
-    pub function: Arc<Formula>,
-    /// The value.
-    pub threshold: f64,
-    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the
-    /// object is open.
-    pub container: Container,
-}
-
-/// The surface of three functions of u and v; the stored normal is the cross product of its slopes
-/// along u and v.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parametric {
-    /// The functions of x, y and z, of two numbers each.
-    pub functions: [Arc<Formula>; 3],
-    /// From where to where u goes, and v.
-    pub domain: [[f64; 2]; 2],
-    /// What cuts the surface off. Without it the surface must be bounded.
-    pub container: Option<Container>,
-}
-
-/// A solid, or a surface given by parameters, and what is done to it, in this order. All of it is
-/// one surface with one texture.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Deform {
-    /// The solid: of shapes with an inside that have a formula, combined in any way. A union is the
-    /// solid of its parts here. Or one patch, NURBS, sewn or parametric surface. Textures in it do
-    /// not count.
-    pub solid: Object,
-    /// The deformation.
-    pub warps: Vec<Warp>,
-}
-
-/// The control net of a Bezier patch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Patch {
-    /// How many points a row has, and how many rows there are.
-    pub size: [usize; 2],
-    /// The points row by row, and their weights: `[x, y, z, w]`. The parameter u runs along a row.
-    pub points: Vec<[f64; 4]>,
-    /// Texture coordinates at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
-    pub uv: [[f64; 2]; 4],
-}
-
-/// The control net of a Bezier patch over a triangle.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TriangularPatch {
-    /// How many points a side has: the degree and one.
-    pub side: usize,
-    /// The points row by row, each row one point shorter, and their weights: `[x, y, z, w]`. The
-    /// parameter u runs along a row.
-    pub points: Vec<[f64; 4]>,
-    /// Texture coordinates at (u, v) = (0, 0), (1, 0) and (0, 1).
-    pub uv: [[f64; 2]; 3],
-}
-
-/// An outline in the xz plane, swept from one height to another; closed by flat caps unless the
-/// object is open.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prism {
-    /// Closed outlines, `[x, z]` for each point. Inside is what they go round an odd number of
-    /// times.
-    pub outlines: Vec<Vec<[f64; 2]>>,
-    /// How an outline goes through its points; curves have all the points that their spline asks
-    /// for, the first one of the curve again as its last.
-    pub spline: Spline,
-    /// The heights of both ends, in any order.
-    pub heights: [f64; 2],
-    /// How the outline changes with the height.
-    pub sweep: Sweep,
-}
-
-/// How an outline goes through its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spline {
-    /// Straight from one to the next, and from the last to the first.
-    Linear,
-    /// On a curve.
-    Curved(durer_surfaces::Spline),
-}
-
-/// How an outline changes along its sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sweep {
-    /// Not at all.
-    Linear,
-    /// At the height y it is y times as large.
-    Conic,
-}
-
-/// A profile that moves along a straight path, closed by flat caps unless the object is open.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StraightSweep {
-    /// Closed outlines in the plane across the path. Inside is what they go round an odd number of
-    /// times.
-    pub outlines: Vec<Vec<[f64; 2]>>,
-    /// How an outline goes through its points, as in [`Prism::spline`].
-    pub spline: Spline,
-    /// The ends of the path.
-    pub path: [Point3; 2],
-    /// The sizes of the profile at the ends, positive; linear between them.
-    pub sizes: [f64; 2],
-    /// The profile's second axis points to this side. For the frame without it see
-    /// [`StraightPath::new`](durer_surfaces::StraightPath::new).
-    pub up: Option<Vec3>,
-}
-
-impl StraightSweep {
-    /// The path with the frame and the sizes of the profile.
-    pub fn straight_path(&self) -> Result<StraightPath, StraightPathError> {
-        let [from, to] = self.path;
-        StraightPath::new(from, to, self.sizes, self.up)
-    }
-}
-
-/// The points where fields add up to `threshold`; the inside is where there is more.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Blob {
-    /// The value, which is positive.
-    pub threshold: f64,
-    /// The fields.
-    pub components: Vec<BlobComponent>,
-    /// The texture of each of them, placed in the blob's space; what has none has the blob's. Empty
-    /// if none has one.
-    pub textures: Vec<Option<Arc<Texture>>>,
-}
-
-/// The container of a function's surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Container {
-    /// A box between two opposite corners.
-    Box(Point3, Point3),
-    /// A ball: its middle and its radius.
-    Ball(Point3, f64),
-}
-
-/// A quadric in its principal frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NamedQuadric {
-    /// Its name.
-    pub kind: QuadricKind,
-    /// Its semi-axes along x, y and z; see [`QuadricKind`] for what each means. Unused ones are
-    /// ignored.
-    pub semi_axes: [f64; 3],
-    /// The part between two planes `z = from` and `z = to`, closed by flat caps unless the object
-    /// is open; all of it if absent.
-    pub extent: Option<[f64; 2]>,
-}
-
-/// The quadrics that have names, with semi-axes a, b, c.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum QuadricKind {
-    /// `x^2/a^2 + y^2/b^2 + z^2/c^2 = 1`; a spheroid if two of them are equal.
-    Ellipsoid,
-    /// `x^2/a^2 + y^2/b^2 = z/c`; circular if `a = b`.
-    EllipticParaboloid,
-    /// `x^2/a^2 - y^2/b^2 = z/c`.
-    HyperbolicParaboloid,
-    /// `x^2/a^2 + y^2/b^2 - z^2/c^2 = 1`.
-    HyperboloidOneSheet,
-    /// `z^2/c^2 - x^2/a^2 - y^2/b^2 = 1`.
-    HyperboloidTwoSheets,
-    /// `x^2/a^2 + y^2/b^2 = z^2/c^2`: a double cone; circular if `a = b`.
-    EllipticCone,
-    /// `x^2/a^2 + y^2/b^2 = 1`; circular if `a = b`.
-    EllipticCylinder,
-    /// `x^2/a^2 - y^2/b^2 = 1`.
-    HyperbolicCylinder,
-    /// `x^2/a^2 = y/b`.
-    ParabolicCylinder,
-}
-
-/// Triangles over shared corners.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
-    /// The corners.
-    pub vertices: Vec<Point3>,
-    /// The normals that faces may refer to, of any length.
-    pub normals: Vec<Vec3>,
-    /// The triangles.
-    pub faces: Vec<Face>,
-    /// The texture coordinates that faces may refer to.
-    pub uv: Vec<[f64; 2]>,
-    /// The numbers of the texture coordinates at each face's corners, if it has any; as many as
-    /// there are faces, or none for all. The coordinates of hits are interpolated between them; on
-    /// other faces the corners have (0, 0), (1, 0) and (0, 1).
-    pub uv_faces: Vec<Option<[u32; 3]>>,
-    /// The textures that faces may refer to, placed in the mesh's own frame.
-    pub textures: Vec<Arc<Texture>>,
-    /// A direction that decides what is inside: points from which it crosses the mesh an odd number
-    /// of times. Without it the mesh is a sheet.
-    pub inside_vector: Option<Vec3>,
-}
-
-/// A triangle of a [`Mesh`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Face {
-    /// The numbers of its corners.
-    pub vertices: [u32; 3],
-    /// The numbers of the normals at its corners; flat without them.
-    pub normals: Option<[u32; 3]>,
-    /// Its texture; the object's without it.
-    pub texture: Option<FaceTexture>,
-}
-
-/// The numbers of a face's textures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FaceTexture {
-    /// One texture.
-    One(u32),
-    /// A texture for each corner, mixed by the point's barycentric coordinates.
-    Corners([u32; 3]),
 }
