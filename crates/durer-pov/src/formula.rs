@@ -17,7 +17,7 @@ use crate::formulas::{self, Lacking};
 use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::object::Shape;
+use crate::object::Object;
 use crate::parser::{Item, Lexeme, Parser};
 use crate::pattern_function::lacking;
 use crate::sampled::{self, Called};
@@ -599,7 +599,7 @@ impl Parser<'_> {
     }
 
     /// Reads the items of an isosurface, after its opening brace.
-    pub(crate) fn isosurface(&mut self, place: Place) -> Result<Shape> {
+    pub(crate) fn isosurface(&mut self, place: Place) -> Result<Object> {
         let mut function = None;
         let (mut threshold, mut open) = (0.0, false);
         let mut container = Container::Box(Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0));
@@ -650,7 +650,10 @@ impl Parser<'_> {
         let Some(function) = function else {
             return Err(Error::invalid(place, "this isosurface has no function"));
         };
-        Ok(Shape::Isosurface(Rc::new(Isosurface { function, threshold, container }), open))
+        let surface = Isosurface { function, threshold, container };
+        let mut object = Object::new(durer_scene::Shape::Isosurface(Box::new(surface)).into(), place);
+        object.habits.open = open;
+        Ok(object)
     }
 
     /// Reads `{ box { } }` or `{ sphere { } }`.

@@ -3,20 +3,19 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_scene::Distribution;
+use durer_scene::{Distribution, Mesh, Shape};
 
-use crate::diagnostics::{Error, Place, Result};
+use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::object::{Mesh, Shape};
+use crate::object::Object;
 use crate::parser::Parser;
-use crate::scene_builder::{bare_mesh, placement};
-use crate::transform::Matrix;
+use crate::scene_builder::placement;
 
-/// The meshes of a mesh camera, and how rays are distributed over their faces.
+/// The meshes of a mesh camera with their objects, and how rays are distributed over their faces.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CameraMeshes {
-    meshes: Vec<(Rc<Mesh>, Matrix, Place)>,
+    meshes: Vec<(Arc<Mesh>, Rc<Object>)>,
     distribution: Distribution,
     max_distance: Option<f64>,
 }
@@ -27,16 +26,9 @@ const NO_DISTANCE: f64 = 1e-10;
 impl CameraMeshes {
     /// As data of the scene.
     pub(crate) fn scene(&self) -> Result<durer_scene::MeshCamera> {
-        let mut known: Vec<(&Rc<Mesh>, Arc<durer_scene::Mesh>)> = Vec::new();
         let mut meshes = Vec::with_capacity(self.meshes.len());
-        for (own, place, at) in &self.meshes {
-            let made = known.iter().find(|(mesh, _)| Rc::ptr_eq(mesh, own)).map(|(_, made)| made.clone());
-            let made = made.unwrap_or_else(|| {
-                let made = Arc::new(bare_mesh(own));
-                known.push((own, made.clone()));
-                made
-            });
-            meshes.push((made, placement(place, *at)?));
+        for (mesh, object) in &self.meshes {
+            meshes.push((mesh.clone(), placement(&object.place, object.at)?));
         }
         Ok(durer_scene::MeshCamera {
             meshes,
@@ -68,11 +60,11 @@ impl Parser<'_> {
         let mut meshes = Vec::new();
         while self.starts_object()? {
             let object = self.object()?;
-            let Shape::Mesh(mesh) = &object.shape else {
+            let Some(Shape::Mesh(mesh)) = object.shape.leaf() else {
                 return Err(Error::invalid(object.at, "a mesh camera consists of meshes"));
             };
-            meshes.push((mesh.clone(), object.place, object.at));
-            self.check_memory(meshes.len() * size_of::<(Rc<Mesh>, Matrix, Place)>(), place)?;
+            meshes.push((mesh.clone(), object));
+            self.check_memory(meshes.len() * size_of::<(Arc<Mesh>, Rc<Object>)>(), place)?;
         }
         if meshes.is_empty() {
             return Err(Error::invalid(place, "this mesh camera has no mesh"));

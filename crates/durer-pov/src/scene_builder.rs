@@ -13,8 +13,8 @@ use crate::camera::Camera;
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Place, Result};
 use crate::light::{Beam, Light};
-use crate::limits;
-use crate::object::{Mesh, Object, Shape, subdivision_bytes};
+use crate::limits::{self, Charge};
+use crate::object::{Object, Shape};
 use crate::parser::Parser;
 use crate::settings::{Gamma, Globals};
 use crate::texture::{Film, Finish, Interior, Layer, Texture};
@@ -30,6 +30,8 @@ pub(crate) struct Output {
     pub(crate) sky: Option<(Rc<SkySphere>, Place)>,
     pub(crate) globals: Globals,
     pub(crate) objects: Vec<scene::Object>,
+    /// The charges for what the objects share with those of the reader.
+    shared: Vec<Rc<Charge>>,
     lights: Vec<scene::Light>,
     pub(crate) rainbows: Vec<scene::Rainbow>,
     /// The light groups.
@@ -57,7 +59,7 @@ pub(crate) fn vector(v: [f64; 3]) -> Vec3 {
 
 /// A normal, scaled to length 1 as POV-Ray does before it interpolates. One without length stays as
 /// it is.
-fn unit(v: [f64; 3]) -> Vec3 {
+pub(crate) fn unit(v: [f64; 3]) -> Vec3 {
     let length = length(v);
     if length > 0.0 && length.is_finite() { vector(v.map(|x| x / length)) } else { vector(v) }
 }
@@ -210,6 +212,14 @@ impl Parser<'_> {
         }))
     }
 
+    /// [`Self::emitted`], for scene data that is soon dropped: what it charges is released.
+    pub(crate) fn emitted_for_a_question(&mut self, object: &Object) -> Result<Option<scene::Object>> {
+        let shared = self.scene.shared.len();
+        let made = limits::giving_back(|| self.emitted(object, &mut Lights::new()));
+        self.scene.shared.truncate(shared);
+        made
+    }
+
     /// [`Self::emitted`], within the light group that is open.
     fn emitted_in_group(&mut self, object: &Object, lights: &mut Lights) -> Result<Option<scene::Object>> {
         if object.lacks_volume {
@@ -245,10 +255,37 @@ impl Parser<'_> {
                 let clips = self.clips(object)?;
                 return self.emitted_deformed(object, solid, warps, clips).map(Some);
             }
-            leaf => surface(leaf, object.at)?,
+            _ => self.surface(object)?,
         };
         let clips = self.clips(object)?;
         self.finished_object(object, shape, clips).map(Some)
+    }
+
+    /// Converts the shape of an object that is a single surface. The scene shares its lists, but has
+    /// copies of meshes and of blobs with textures: lowering instances meshes that objects share,
+    /// and the hits of an instance may have other last bits.
+    pub(crate) fn surface(&mut self, object: &Object) -> Result<scene::Shape> {
+        let (leaf, textures) = match &object.shape {
+            Shape::Leaf(leaf) => (leaf, &[][..]),
+            Shape::Textured(leaf, textures) => (leaf, &textures[..]),
+            _ => return Err(Error::invalid(object.at, "a single surface is needed here")),
+        };
+        let textures = converted_textures(textures, object.at)?;
+        let copied = match leaf {
+            scene::Shape::Mesh(mesh) => {
+                let textures = textures.into_iter().flatten().collect();
+                scene::Shape::Mesh(Arc::new(scene::Mesh { textures, ..(**mesh).clone() }))
+            }
+            scene::Shape::Blob(blob) if !textures.is_empty() => {
+                scene::Shape::Blob(Arc::new(scene::Blob { textures, ..(**blob).clone() }))
+            }
+            _ => {
+                self.scene.shared.extend(object.shared.clone());
+                return Ok(leaf.clone());
+            }
+        };
+        limits::charge_for_good(object.shape.shared_bytes());
+        Ok(copied)
     }
 
     /// Converts the objects that clip an object.
@@ -407,168 +444,10 @@ fn flags(object: &Object) -> scene::Flags {
         no_reflection: habits.no_reflection,
         hollow: habits.hollow,
         inverse: habits.inverse,
-        open: habits.open || matches!(object.shape, Shape::Isosurface(_, true)),
+        open: habits.open,
         double_illuminate: habits.double_illuminate,
         light_group: None,
     }
-}
-
-/// The triangles of a mesh and their texture coordinates, without its textures.
-pub(crate) fn bare_mesh(mesh: &Mesh) -> scene::Mesh {
-    let faces = mesh.faces.iter().map(|face| scene::Face {
-        vertices: face.vertices,
-        normals: face.normals,
-        texture: face.texture,
-    });
-    scene::Mesh {
-        vertices: mesh.vertices.iter().copied().map(point).collect(),
-        normals: mesh.normals.iter().copied().map(unit).collect(),
-        faces: faces.collect(),
-        uv: mesh.uv.clone(),
-        uv_faces: if mesh.faces.iter().any(|face| face.uv.is_some()) {
-            mesh.faces.iter().map(|face| face.uv).collect()
-        } else {
-            Vec::new()
-        },
-        textures: Vec::new(),
-        inside_vector: mesh.inside_vector.map(vector),
-    }
-}
-
-/// Converts a shape that is neither a union nor a light.
-pub(crate) fn surface(shape: &Shape, at: Place) -> Result<scene::Shape> {
-    Ok(match shape {
-        Shape::Sphere { center, radius } => scene::Shape::Sphere { centre: point(*center), radius: *radius },
-        Shape::Box { a, b } => scene::Shape::Box { a: point(*a), b: point(*b) },
-        Shape::Cylinder { base, cap, radius } => {
-            scene::Shape::Cylinder { base: point(*base), cap: point(*cap), radius: *radius }
-        }
-        Shape::Cone { base, base_radius, cap, cap_radius } => scene::Shape::Cone {
-            base: point(*base),
-            base_radius: *base_radius,
-            cap: point(*cap),
-            cap_radius: *cap_radius,
-        },
-        Shape::Plane { normal, distance } => {
-            scene::Shape::Plane { normal: vector(*normal), distance: *distance }
-        }
-        Shape::Disc { center, normal, radius, hole } => scene::Shape::Disc {
-            centre: point(*center),
-            normal: vector(*normal),
-            radius: *radius,
-            hole: *hole,
-        },
-        Shape::Parallelogram { corner, u, v } => {
-            scene::Shape::Parallelogram { corner: point(*corner), u: vector(*u), v: vector(*v) }
-        }
-        Shape::Triangle(corners) => scene::Shape::Triangle(corners.map(point)),
-        Shape::SmoothTriangle(both) => {
-            scene::Shape::SmoothTriangle(Box::new((both.0.map(point), both.1.map(unit))))
-        }
-        Shape::Polygon(loops, rule) => scene::Shape::Polygon {
-            loops: loops.iter().map(|points| points.iter().copied().map(point).collect()).collect(),
-            rule: *rule,
-        },
-        Shape::Mesh(mesh) => {
-            let textures = mesh.textures.iter().map(|own| texture_of_object(own, at));
-            let textures = textures.collect::<Result<_>>()?;
-            let made = scene::Mesh { textures, ..bare_mesh(mesh) };
-            limits::charge_for_good(
-                (made.vertices.len() + made.normals.len()) * 24
-                    + made.faces.len() * 36
-                    + (made.uv.len() + made.uv_faces.len()) * 16,
-            );
-            scene::Shape::Mesh(Arc::new(made))
-        }
-        Shape::Quadric(coefficients) => scene::Shape::Quadric(coefficients.clone()),
-        Shape::Polynomial(order, coefficients) => {
-            scene::Shape::Polynomial { order: *order, coefficients: coefficients.iter().copied().collect() }
-        }
-        &Shape::Torus { major, minor } => scene::Shape::Torus { major, minor },
-        &Shape::Cyclide { a, c, d } => scene::Shape::Cyclide { a, c, d },
-        Shape::Prism(prism) => {
-            let points: usize = prism.outlines.iter().map(Vec::len).sum();
-            limits::charge_for_good(points * 16);
-            scene::Shape::Prism(Arc::new((**prism).clone()))
-        }
-        Shape::Sweep(sweep) => {
-            let points: usize = sweep.outlines.iter().map(Vec::len).sum();
-            limits::charge_for_good(points * 16);
-            scene::Shape::StraightSweep(Arc::new((**sweep).clone()))
-        }
-        Shape::PathSweep(sweep) => scene::Shape::PathSweep(sweep.clone()),
-        Shape::SphereSweep(spline, spheres) => {
-            limits::charge_for_good(spheres.len() * 32);
-            scene::Shape::SphereSweep(*spline, Arc::from(&spheres[..]))
-        }
-        Shape::Sor(points) => {
-            limits::charge_for_good(points.len() * 16);
-            scene::Shape::Sor(Arc::from(&points[..]))
-        }
-        Shape::Lathe(spline, points) => {
-            limits::charge_for_good(points.len() * 16);
-            scene::Shape::Lathe(*spline, Arc::from(&points[..]))
-        }
-        Shape::Patch(patch) => {
-            limits::charge_for_good(patch.points.len() * 32);
-            scene::Shape::Patch(Arc::new((**patch).clone()))
-        }
-        Shape::TriangularPatch(patch) => {
-            limits::charge_for_good(patch.points.len() * 32);
-            scene::Shape::TriangularPatch(Arc::new((**patch).clone()))
-        }
-        Shape::Nurbs(data) => {
-            limits::charge_for_good(data.points.len() * 32);
-            scene::Shape::Nurbs(Arc::new((**data).clone()))
-        }
-        Shape::Subdivision(data) => {
-            limits::charge_for_good(subdivision_bytes(data));
-            scene::Shape::Subdivision(Arc::new((**data).clone()))
-        }
-        Shape::Parametric(it) => scene::Shape::Parametric(Arc::new((**it).clone())),
-        Shape::Sewn(data) => {
-            limits::charge_for_good(data.surfaces.iter().map(|s| s.points.len() * 32).sum());
-            scene::Shape::Sewn(Arc::new((**data).clone()))
-        }
-        &Shape::Ovus { bottom, top } => scene::Shape::Ovus { bottom, top },
-        &Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius } => {
-            let (base, apex) = (point(base), point(apex));
-            scene::Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius }
-        }
-        Shape::Named(named) => scene::Shape::Named(Box::new(scene::NamedQuadric {
-            kind: named.kind,
-            semi_axes: named.semi_axes,
-            extent: named.extent,
-        })),
-        Shape::Sector { center, radius, axis, half_angle } => scene::Shape::SphericalSector {
-            centre: point(*center),
-            radius: *radius,
-            axis: vector(*axis),
-            half_angle: *half_angle,
-        },
-        Shape::Isosurface(iso, _) => scene::Shape::Isosurface(Box::new((**iso).clone())),
-        &Shape::Superellipsoid { e, n } => scene::Shape::Superellipsoid { e, n },
-        Shape::Julia(set) => scene::Shape::Julia(set.clone()),
-        Shape::Ifs(system) => scene::Shape::Ifs(system.clone()),
-        Shape::HeightField(field) => scene::Shape::HeightField(Box::new((**field).clone())),
-        Shape::Terrain(terrain) => scene::Shape::Terrain(Box::new((**terrain).clone())),
-        Shape::Blob(blob) => {
-            limits::charge_for_good(blob.size());
-            scene::Shape::Blob(Box::new(scene::Blob {
-                threshold: blob.threshold,
-                components: blob.components.clone(),
-                textures: component_textures(&blob.textures, at)?,
-            }))
-        }
-        Shape::FlatBox { .. }
-        | Shape::Nothing
-        | Shape::Deform(..)
-        | Shape::Union(_)
-        | Shape::Csg(..)
-        | Shape::Light(_) => {
-            return Err(Error::invalid(at, "a single surface is needed here"));
-        }
-    })
 }
 
 /// The factor from the language's number for caustics to the exponent of the cosine.
@@ -599,14 +478,9 @@ fn filling(interior: &Interior) -> scene::Interior {
     }
 }
 
-/// The textures of a blob's components; empty if no component has one. Components often share
-/// textures.
-fn component_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Option<Arc<scene::Texture>>>> {
-    if all.iter().all(Option::is_none) {
-        return Ok(Vec::new());
-    }
+/// Converts the textures of a mesh or a blob. Neighbours often share textures.
+fn converted_textures(all: &[Option<Rc<Texture>>], at: Place) -> Result<Vec<Option<Arc<scene::Texture>>>> {
     let mut made: Vec<Option<Arc<scene::Texture>>> = Vec::with_capacity(all.len());
-    // The last one that was converted: consecutive components often have the same.
     let mut last: Option<(&Rc<Texture>, Arc<scene::Texture>)> = None;
     for own in all {
         let Some(own) = own else {

@@ -17,7 +17,7 @@ use scene::Operation;
 use crate::diagnostics::Result;
 use crate::object::{Object, Shape};
 use crate::parser::Parser;
-use crate::scene_builder::{Lights, move_lights, point, surface, vector};
+use crate::scene_builder::{Lights, move_lights, point, vector};
 
 /// A set of points.
 #[derive(Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl Parser<'_> {
                 let volume = Volume::Of(self.emitted_deformed(object, solid, warps, clips)?);
                 return Ok(Parted { volume, sheets: Vec::new() });
             }
-            whole => (Volume::Of(surface(whole, object.at)?), Vec::new()),
+            _ => (Volume::Of(self.surface(object)?), Vec::new()),
         };
         let Some(clips) = self.clips_with_volume(object)? else {
             return Ok(Parted { volume: Volume::Empty, sheets: Vec::new() });

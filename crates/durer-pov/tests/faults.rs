@@ -60,6 +60,26 @@ fn endless_data_end() {
     limit("#declare A=array[500000]; #for(I,0,499999) #declare A[I]=texture{pigment{rgb I}} #end", "memory");
 }
 
+/// Lists that objects share count once, and no longer when the last object is gone.
+#[test]
+fn shared_lists_count_once() {
+    let limits = Limits { memory: 8 << 20, ..Limits::default() };
+    let options = ReadOptions { limits, ..ReadOptions::default() };
+    let folder = Folder::new();
+    let field = "height_field { function 300, 300 { 0.5 } }";
+    let turned = "sor { 20002, #for(J,0,20001) <1,J>, #end }";
+    for (text, fits) in [
+        (format!("#for(I,1,20) #declare F={field}; #end object {{ F }}"), true),
+        (format!("#for(I,1,20) {field} #end"), false),
+        (format!("#declare S={turned} #for(I,1,30) object {{ S translate I }} #end #undef S"), true),
+        (format!("#for(I,1,30) {turned} #end"), false),
+        (format!("#for(I,1,30) #declare E=min_extent({turned}); #end"), true),
+    ] {
+        let path = folder.write("scene.pov", &text);
+        assert_eq!(durer_pov::read(&path, &options).is_ok(), fits, "{text}");
+    }
+}
+
 #[test]
 fn files_that_are_no_scenes_are_named() {
     let folder = Folder::new();

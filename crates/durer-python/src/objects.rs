@@ -348,7 +348,7 @@ fn blob(components: Vec<(V3, V3, f64, f64)>, threshold: f64) -> PyResult<Object>
         place: Affine::IDENTITY,
     };
     let components = components.into_iter().map(component).collect();
-    checked(Shape::Blob(Box::new(Blob { threshold, components, textures: Vec::new() })))
+    checked(Shape::Blob(Arc::new(Blob { threshold, components, textures: Vec::new() })))
 }
 
 #[pyfunction]

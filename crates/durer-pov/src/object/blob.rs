@@ -1,16 +1,17 @@
 //! `blob { threshold T  sphere { ... }  cylinder { ... }  component ... }`.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
-use durer_math::{Affine, Point3};
-use durer_scene::{BlobComponent, BlobShape};
+use durer_math::Affine;
+use durer_scene::{self as scene, Blob, BlobComponent, BlobShape};
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
-use crate::scene_builder;
+use crate::scene_builder::{affine, point};
 use crate::texture::{Layer, Texture};
 use crate::transform::Matrix;
 
@@ -20,63 +21,31 @@ const THRESHOLD: f64 = 1.0;
 /// The parameters of a component, without its texture.
 const EACH: usize = size_of::<BlobComponent>() + size_of::<Option<Rc<Texture>>>();
 
-/// The fields, and the textures that some of them have, moved with them.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Blob {
-    pub(crate) threshold: f64,
-    pub(crate) components: Vec<BlobComponent>,
-    /// As many as components.
-    pub(crate) textures: Vec<Option<Rc<Texture>>>,
-    /// How many layers they have together.
-    layers: usize,
-}
-
-impl Blob {
-    fn add(&mut self, (component, texture): (BlobComponent, Option<Rc<Texture>>)) {
-        if component.radius == 0.0 {
-            return;
-        }
-        self.components.push(component);
-        self.layers += texture.as_ref().map_or(0, |texture| texture.size());
-        self.textures.push(texture);
-    }
-
-    /// The memory that it needs.
-    pub(crate) fn size(&self) -> usize {
-        self.components.len() * EACH + self.layers * size_of::<Layer>()
-    }
-}
-
-fn point([x, y, z]: [f64; 3]) -> Point3 {
-    Point3::new(x, y, z)
-}
-
 impl Parser<'_> {
     /// The items of a blob, after its opening brace.
     pub(crate) fn blob(&mut self, place: Place) -> Result<Shape> {
-        let mut blob = Blob { threshold: THRESHOLD, components: Vec::new(), textures: Vec::new(), layers: 0 };
-        let mut has_components = false;
+        let (mut threshold, mut has_components, mut bytes) = (THRESHOLD, false, 0);
+        let (mut components, mut textures) = (Vec::new(), Vec::new());
         loop {
             self.skip_comma()?;
-            let word = self.peek_word()?;
-            has_components |= matches!(word, Some(Keyword::Sphere | Keyword::Cylinder | Keyword::Component));
-            match word {
+            let added = match self.peek_word()? {
                 Some(Keyword::Threshold) => {
                     let at = self.here();
                     self.next()?;
-                    blob.threshold = self.float()?;
-                    if blob.threshold <= 0.0 {
+                    threshold = self.float()?;
+                    if threshold <= 0.0 {
                         return Err(Error::invalid(
                             at,
-                            format!("the threshold of a blob is greater than 0, not {}", blob.threshold),
+                            format!("the threshold of a blob is greater than 0, not {threshold}"),
                         ));
                     }
+                    None
                 }
                 Some(Keyword::Sphere) => {
                     self.next()?;
                     self.expect(Mark::BraceOpen)?;
                     let centre = self.corner()?;
-                    blob.add(self.field(BlobShape::Ball(point(centre)))?);
+                    Some(self.field(BlobShape::Ball(point(centre)))?)
                 }
                 Some(Keyword::Cylinder) => {
                     let at = self.here();
@@ -86,7 +55,7 @@ impl Parser<'_> {
                     if base == cap {
                         return Err(Error::invalid(at, "this cylinder's ends are the same point"));
                     }
-                    blob.add(self.field(BlobShape::Segment(point(base), point(cap)))?);
+                    Some(self.field(BlobShape::Segment(point(base), point(cap)))?)
                 }
                 Some(Keyword::Component) => {
                     // The form of old scenes: strength, radius, centre.
@@ -96,27 +65,36 @@ impl Parser<'_> {
                     let radius = self.reach()?;
                     self.skip_comma()?;
                     let shape = BlobShape::Ball(point(self.vector()?));
-                    blob.add((BlobComponent { shape, radius, strength, place: Affine::IDENTITY }, None));
+                    Some((BlobComponent { shape, radius, strength, place: Affine::IDENTITY }, None))
                 }
                 // Roots are certain and cells are made without them.
                 Some(Keyword::Sturm | Keyword::Hierarchy) => {
                     self.next()?;
                     self.switch_value()?;
+                    None
                 }
                 _ => break,
+            };
+            has_components |= added.is_some();
+            if let Some((component, texture)) = added.filter(|(component, _)| component.radius != 0.0) {
+                bytes += EACH + texture.as_ref().map_or(0, |texture| texture.size() * size_of::<Layer>());
+                components.push(component);
+                textures.push(texture);
             }
-            self.check_memory(blob.size(), place)?;
+            self.check_memory(bytes, place)?;
         }
         if !has_components {
             return Err(Error::invalid(place, "this blob has no components"));
         }
-        if blob.components.is_empty() {
+        if components.is_empty() {
             return Ok(self.nothing("no component of this blob has a field", place));
         }
-        Ok(Shape::Blob(Rc::new(blob)))
+        let blob = Blob { threshold, components, textures: Vec::new() };
+        Ok(Shape::textured(scene::Shape::Blob(Arc::new(blob)), textures))
     }
 
-    /// The radius and the strength of a component, its transforms, its texture and its closing brace.
+    /// The radius and the strength of a component, its transforms, its texture and its closing
+    /// brace.
     fn field(&mut self, shape: BlobShape) -> Result<(BlobComponent, Option<Rc<Texture>>)> {
         let radius = self.reach()?;
         self.skip_comma()?;
@@ -139,7 +117,7 @@ impl Parser<'_> {
             return Err(self.unexpected(&lexeme, "a transform or the texture of the component, or `}`"));
         }
         let at = self.here();
-        let place = if matrix.is_identity() { Affine::IDENTITY } else { scene_builder::affine(&matrix, at)? };
+        let place = if matrix.is_identity() { Affine::IDENTITY } else { affine(&matrix, at)? };
         Ok((BlobComponent { shape, radius, strength, place }, texture))
     }
 

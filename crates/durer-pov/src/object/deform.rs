@@ -1,12 +1,14 @@
-//! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  lattice { ... }  formula { ... }  modifiers }`.
+//! `deform { OBJECT  twist { ... }  taper { ... }  bend { ... }  lattice { ... }  formula { ... }
+//! modifiers }`.
 //!
-//! The deformations of an object follow each other in the order of the text. The blocks follow durer's own form: numbers first, then `word value`.
+//! The deformations of an object follow each other in the order of the text. The blocks follow
+//! durer's own form: numbers first, then `word value`.
 
 use std::rc::Rc;
 use std::sync::Arc;
 
 use durer_math::{Aabb, Point3, Vec3};
-use durer_scene::{Container, DeformError, Lattice, Warp};
+use durer_scene::{Container, DeformError, Lattice, Shape as Leaf, Warp};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Place, Result};
@@ -257,14 +259,14 @@ fn fits(object: &Rc<Object>, warp: &Warp) -> Result<()> {
 
 /// The name of a surface that is given by parameters.
 fn of_parameters(shape: &Shape) -> Option<&'static str> {
-    Some(match shape {
-        Shape::Patch(_) => "a patch",
-        Shape::TriangularPatch(_) => "a triangular patch",
-        Shape::Nurbs(_) => "a nurbs surface",
-        Shape::Parametric(_) => "a parametric",
-        Shape::Sewn(_) => "a sewn surface",
-        _ => return None,
-    })
+    match shape.leaf()? {
+        leaf @ (Leaf::Patch(_)
+        | Leaf::TriangularPatch(_)
+        | Leaf::Nurbs(_)
+        | Leaf::Parametric(_)
+        | Leaf::Sewn(_)) => Some(leaf.name()),
+        _ => None,
+    }
 }
 
 /// Refuses what has no formula. A surface given by parameters is deformed by itself, not as a part
@@ -274,7 +276,7 @@ fn check(object: &Rc<Object>, alone: bool) -> Result<()> {
     if !object.clips.is_empty() {
         return refuse("what is clipped cannot be deformed: an intersection can");
     }
-    if object.habits.open || matches!(object.shape, Shape::Isosurface(_, true)) {
+    if object.habits.open {
         return refuse("what is open is no solid, so it cannot be deformed");
     }
     if let Some(name) = of_parameters(&object.shape) {
@@ -287,45 +289,29 @@ fn check(object: &Rc<Object>, alone: bool) -> Result<()> {
         Shape::Union(parts) => return parts.iter().try_for_each(|part| check(part, alone)),
         Shape::Csg(_, parts) => return parts.iter().try_for_each(|part| check(part, false)),
         Shape::Deform(solid, _) => return check(solid, alone),
-        Shape::Sphere { .. }
-        | Shape::Box { .. }
-        | Shape::Cylinder { .. }
-        | Shape::Cone { .. }
-        | Shape::Plane { .. }
-        | Shape::Quadric(_)
-        | Shape::Polynomial(..)
-        | Shape::Torus { .. }
-        | Shape::Cyclide { .. }
-        | Shape::Named(_)
-        | Shape::Sector { .. }
-        | Shape::Isosurface(..)
-        | Shape::Superellipsoid { .. } => return Ok(()),
-        Shape::Blob(blob) if blob.textures.iter().all(Option::is_none) => return Ok(()),
-        Shape::Blob(_) => return refuse("a blob whose components have textures cannot be deformed"),
+        Shape::Leaf(
+            Leaf::Sphere { .. }
+            | Leaf::Box { .. }
+            | Leaf::Cylinder { .. }
+            | Leaf::Cone { .. }
+            | Leaf::Plane { .. }
+            | Leaf::Quadric(_)
+            | Leaf::Polynomial { .. }
+            | Leaf::Torus { .. }
+            | Leaf::Cyclide { .. }
+            | Leaf::Named(_)
+            | Leaf::SphericalSector { .. }
+            | Leaf::Isosurface(_)
+            | Leaf::Superellipsoid { .. }
+            | Leaf::Blob(_),
+        ) => return Ok(()),
+        Shape::Textured(Leaf::Blob(_), _) => {
+            return refuse("a blob whose components have textures cannot be deformed");
+        }
         Shape::FlatBox { .. } => "a box without thickness",
         Shape::Nothing => "an object without a surface",
-        Shape::Disc { .. } => "a disc",
-        Shape::Parallelogram { .. } => "a parallelogram",
-        Shape::Triangle(_) | Shape::SmoothTriangle(_) => "a triangle",
-        Shape::Polygon(..) => "a polygon",
-        Shape::Mesh(_) => "a mesh",
-        Shape::Prism(_) => "a prism",
-        Shape::Sweep(_) | Shape::PathSweep(_) => "a sweep",
-        Shape::SphereSweep(..) => "a sphere sweep",
-        Shape::Sor(_) => "a sor",
-        Shape::Lathe(..) => "a lathe",
-        Shape::Patch(_)
-        | Shape::TriangularPatch(_)
-        | Shape::Nurbs(_)
-        | Shape::Parametric(_)
-        | Shape::Sewn(_) => return Ok(()),
-        Shape::Subdivision(_) => "a subdivision surface",
-        Shape::Ovus { .. } => "an ovus",
-        Shape::Lemon { .. } => "a lemon",
-        Shape::Julia(_) => "a Julia set",
-        Shape::Ifs(_) => "an ifs",
-        Shape::HeightField(_) => "a height field",
-        Shape::Terrain(_) => "a terrain",
+        Shape::Leaf(Leaf::SmoothTriangle(_)) => "a triangle",
+        Shape::Leaf(leaf) | Shape::Textured(leaf, _) => leaf.name(),
         Shape::Light(_) => "a light",
     };
     refuse(&format!("{without_formula} has no formula here, so it cannot be deformed"))

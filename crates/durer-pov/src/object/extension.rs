@@ -1,23 +1,16 @@
 //! Surfaces that POV-Ray's language lacks, by words that are free for its users' own names.
 //!
-//! `docs/language.md` describes the words. All blocks follow one form: the numbers that make the surface, then
-//! settings of the kind `word value`, then the modifiers of any object.
+//! `docs/language.md` describes the words. All blocks follow one form: the numbers that make the
+//! surface, then settings of the kind `word value`, then the modifiers of any object.
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::parser::{Item, Parser};
+use crate::scene_builder::{point, vector};
 use crate::value::Terms;
-use durer_scene::{FillRule, SweepSpline};
-
-/// A quadric by its name, its axis along z.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Named {
-    pub(crate) kind: durer_scene::QuadricKind,
-    pub(crate) semi_axes: [f64; 3],
-    pub(crate) extent: Option<[f64; 2]>,
-}
+use durer_scene::{self as scene, FillRule, NamedQuadric, SweepSpline};
 
 /// The words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,13 +112,13 @@ impl Parser<'_> {
 
     /// The numbers and settings of `word`, after its opening brace.
     pub(crate) fn extension_shape(&mut self, word: Word, place: Place) -> Result<Shape> {
-        use durer_scene::QuadricKind;
+        use scene::QuadricKind;
         let kind = match word {
             Word::SphericalSector => {
-                let center = self.corner()?;
+                let centre = point(self.corner()?);
                 let radius = self.radius("the sector's radius")?;
                 self.skip_comma()?;
-                let axis = self.normal("the sector's axis")?;
+                let axis = vector(self.normal("the sector's axis")?);
                 self.peek()?;
                 let at = self.here();
                 let degrees = self.float()?;
@@ -135,7 +128,8 @@ impl Parser<'_> {
                         "the half angle of a sector is between 0 and 180 degrees",
                     ));
                 }
-                return Ok(Shape::Sector { center, radius, axis, half_angle: degrees.to_radians() });
+                let half_angle = degrees.to_radians();
+                return Ok(scene::Shape::SphericalSector { centre, radius, axis, half_angle }.into());
             }
             Word::Lemon => return self.lemon(place),
             Word::Deform => return self.deform(place),
@@ -151,12 +145,12 @@ impl Parser<'_> {
             Word::Sewn => return self.sewn(place),
             Word::Annulus => return self.shape(Keyword::Disc, place),
             Word::Parallelogram => {
-                let corner = self.corner()?;
+                let corner = point(self.corner()?);
                 let (u, v) = (self.normal("the first edge")?, self.normal("the second edge")?);
                 if crate::transform::cross(u, v) == [0.0; 3] {
                     return Err(Error::invalid(place, "the edges of this parallelogram are parallel"));
                 }
-                return Ok(Shape::Parallelogram { corner, u, v });
+                return Ok(scene::Shape::Parallelogram { corner, u: vector(u), v: vector(v) }.into());
             }
             Word::Ellipsoid | Word::Spheroid => QuadricKind::Ellipsoid,
             Word::Paraboloid => QuadricKind::EllipticParaboloid,
@@ -167,7 +161,7 @@ impl Parser<'_> {
             Word::HyperbolicCylinder => QuadricKind::HyperbolicCylinder,
             Word::ParabolicCylinder => QuadricKind::ParabolicCylinder,
         };
-        let mut named = Named { kind, semi_axes: self.semi_axes(word)?, extent: None };
+        let mut named = NamedQuadric { kind, semi_axes: self.semi_axes(word)?, extent: None };
         let mut sheets = None;
         loop {
             self.skip_comma()?;
@@ -192,17 +186,19 @@ impl Parser<'_> {
                 "say how many sheets this hyperboloid has: `sheets 1` or `sheets 2`",
             ));
         }
-        Ok(Shape::Named(Box::new(named)))
+        Ok(scene::Shape::Named(Box::new(named)).into())
     }
 
     /// Two points, and how far from the line between them the surface is.
     fn capsule(&mut self) -> Result<Shape> {
         let ends = [self.corner()?, self.corner()?];
         let radius = self.radius("the radius of the capsule")?;
-        Ok(Shape::SphereSweep(SweepSpline::Linear, ends.map(|[x, y, z]| [x, y, z, radius]).into()))
+        let spheres = ends.map(|[x, y, z]| [x, y, z, radius]);
+        Ok(scene::Shape::SphereSweep(SweepSpline::Linear, spheres.into()).into())
     }
 
-    /// The semi-axis and the focal distance of a cyclide's ellipse, and the mean radius of its spheres.
+    /// The semi-axis and the focal distance of a cyclide's ellipse, and the mean radius of its
+    /// spheres.
     fn cyclide(&mut self) -> Result<Shape> {
         let a = self.radius("the semi-axis of the cyclide's ellipse")?;
         self.skip_comma()?;
@@ -216,7 +212,8 @@ impl Parser<'_> {
             return Err(Error::invalid(at, text));
         }
         self.skip_comma()?;
-        Ok(Shape::Cyclide { a, c, d: self.radius("the mean radius of the cyclide's spheres")? })
+        let d = self.radius("the mean radius of the cyclide's spheres")?;
+        Ok(scene::Shape::Cyclide { a, c, d }.into())
     }
 
     /// The rest of `from a to b`.

@@ -1,7 +1,7 @@
 //! `ifs { LEAF map { TRANSFORM ... } map { ... } ... depth N }`, `ifs { menger N }` and
 //! `ifs { sierpinski N }`, durer's own.
 
-use durer_scene::{Ifs, IfsError, IfsLeaf, MOST_LEVELS};
+use durer_scene::{self as scene, Ifs, IfsError, IfsLeaf, MOST_LEVELS};
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
@@ -25,7 +25,7 @@ impl Parser<'_> {
         } else {
             return self.ifs_of_maps(place);
         };
-        Ok(Shape::Ifs(made.map_err(|why| Error::invalid(at, why.to_string()))?))
+        Ok(scene::Shape::Ifs(made.map_err(|why| Error::invalid(at, why.to_string()))?).into())
     }
 
     fn ifs_of_maps(&mut self, place: Place) -> Result<Shape> {
@@ -64,7 +64,7 @@ impl Parser<'_> {
             };
             Error::invalid(at, why.to_string())
         })?;
-        Ok(Shape::Ifs(system))
+        Ok(scene::Shape::Ifs(system).into())
     }
 
     /// `box { A, B }`, `sphere { C, R }` or `tetrahedron { P, Q, R, S }`.

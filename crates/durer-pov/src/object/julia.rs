@@ -1,6 +1,7 @@
-//! `julia_fractal { <a, b, c, d> quaternion|hypercomplex sqr|cube max_iteration N precision P slice <a, b, c, d>, D }`.
+//! `julia_fractal { <a, b, c, d> quaternion|hypercomplex sqr|cube max_iteration N precision P
+//! slice <a, b, c, d>, D }`.
 
-use durer_scene::{Julia, JuliaAlgebra, JuliaPower, MOST_ITERATIONS};
+use durer_scene::{self as scene, Julia, JuliaAlgebra, JuliaPower, MOST_ITERATIONS};
 
 use super::Shape;
 use crate::diagnostics::{Error, Result};
@@ -77,14 +78,15 @@ impl Parser<'_> {
             }
             self.next()?;
         }
-        // POV-Ray's pictures show the points whose first N, their own included, are not further out than this.
+        // POV-Ray's pictures show the points whose first N, their own included, are not further out
+        // than this.
         let size = set.c.iter().fold(0.0, |sum, x| sum + x * x).sqrt();
         set.radius = match set.algebra {
             JuliaAlgebra::Quaternion => (1.0 + size).min(2.0),
             JuliaAlgebra::Hypercomplex => 4.0,
         };
         set.iterations = set.iterations.saturating_sub(1);
-        Ok(Shape::Julia(Box::new(set)))
+        Ok(scene::Shape::Julia(Box::new(set)).into())
     }
 
     /// A vector of four; a float stands for four equal ones, missing ones are zero.

@@ -2,59 +2,26 @@
 
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
+
+use durer_math::{Point3, Vec3};
+use durer_scene::{self as scene, Face, FaceTexture, Mesh};
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::limits::Charge;
 use crate::parser::{Item, Parser};
+use crate::scene_builder::{point, unit, vector};
 use crate::texture::Texture;
 use crate::transform::length;
 use crate::value::Value;
-use durer_scene::FaceTexture;
 
-/// A triangle of a mesh: numbers of corners, of their normals, of its texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Face {
-    pub(crate) vertices: [u32; 3],
-    pub(crate) normals: Option<[u32; 3]>,
-    pub(crate) texture: Option<FaceTexture>,
-    /// The numbers of the texture coordinates at its corners.
-    pub(crate) uv: Option<[u32; 3]>,
-}
-
-/// Triangles over shared corners.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Mesh {
-    pub(crate) vertices: Vec<[f64; 3]>,
-    pub(crate) normals: Vec<[f64; 3]>,
-    pub(crate) faces: Vec<Face>,
-    /// The texture coordinates that faces may refer to.
-    pub(crate) uv: Vec<[f64; 2]>,
-    pub(crate) textures: Vec<Rc<Texture>>,
-    pub(crate) inside_vector: Option<[f64; 3]>,
-    charge: Charge,
-}
-
-impl Mesh {
-    fn new() -> Self {
-        Self {
-            vertices: Vec::new(),
-            normals: Vec::new(),
-            faces: Vec::new(),
-            uv: Vec::new(),
-            textures: Vec::new(),
-            inside_vector: None,
-            charge: Charge::new(size_of::<Self>()),
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        (self.vertices.capacity() + self.normals.capacity()) * 24
-            + self.uv.capacity() * 16
-            + self.faces.capacity() * size_of::<Face>()
-    }
+/// The memory of a mesh, with what its lists have room for.
+pub(super) fn bytes(mesh: &Mesh) -> usize {
+    (mesh.vertices.capacity() + mesh.normals.capacity()) * 24
+        + (mesh.uv.capacity() + mesh.uv_faces.capacity()) * 16
+        + mesh.faces.capacity() * size_of::<Face>()
 }
 
 /// Finds equal corners, so that neighbours share them.
@@ -80,7 +47,7 @@ const OFTEN: usize = 1 << 12;
 impl Parser<'_> {
     /// `mesh { triangle { } smooth_triangle { } ... }` up to its modifiers.
     pub(super) fn mesh(&mut self) -> Result<Shape> {
-        let mut mesh = Mesh::new();
+        let (mut mesh, mut textures) = (Mesh::default(), Vec::new());
         let (mut corners, mut normals) = (Shared::default(), Shared::default());
         let mut coordinates = Shared::default();
         loop {
@@ -92,16 +59,15 @@ impl Parser<'_> {
             self.next()?;
             let place = self.here();
             self.expect(Mark::BraceOpen)?;
-            let mut face =
-                Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None, uv: None };
+            let mut face = Face { vertices: [0; 3], normals: smooth.then_some([0; 3]), texture: None };
             for i in 0..3 {
                 face.vertices[i] = {
                     let corner = self.corner()?;
-                    corners.index(corner, &mut mesh.vertices, corner)
+                    corners.index(corner, &mut mesh.vertices, point(corner))
                 };
                 if let Some(at) = &mut face.normals {
                     let normal = self.normal("a normal of the triangle")?;
-                    at[i] = normals.index(normal, &mut mesh.normals, normal);
+                    at[i] = normals.index(normal, &mut mesh.normals, vector(normal));
                 }
             }
             if self.take_word(Keyword::UvVectors)? {
@@ -111,18 +77,19 @@ impl Parser<'_> {
                     *corner = coordinates.index([uv[0], uv[1], 0.0], &mut mesh.uv, uv);
                     self.skip_comma()?;
                 }
-                face.uv = Some(at);
+                mesh.uv_faces.resize(mesh.faces.len(), None);
+                mesh.uv_faces.push(Some(at));
             }
             if self.take_word(Keyword::Texture)? {
                 let texture = self.nested(Self::texture_block)?;
                 let texture = Rc::new(texture);
-                face.texture = Some(FaceTexture::One(texture_index(&mut mesh.textures, texture)));
+                face.texture = Some(FaceTexture::One(texture_index(&mut textures, texture)));
             } else if self.take_word(Keyword::TextureList)? {
                 self.expect(Mark::BraceOpen)?;
                 let mut at = [0; 3];
                 for corner in &mut at {
                     let texture = self.listed_texture()?;
-                    *corner = texture_index(&mut mesh.textures, texture);
+                    *corner = texture_index(&mut textures, texture);
                 }
                 self.expect(Mark::BraceClose)?;
                 face.texture = Some(FaceTexture::Corners(at));
@@ -132,26 +99,25 @@ impl Parser<'_> {
             if mesh.faces.len().is_multiple_of(OFTEN) {
                 let index =
                     (corners.0.capacity() + normals.0.capacity() + coordinates.0.capacity()) * SHARED_ENTRY;
-                self.check_memory(mesh.bytes() + index, place)?;
+                self.check_memory(bytes(&mesh) + index, place)?;
             }
         }
-        self.finish_mesh(mesh)
+        self.finish_mesh(mesh, textures)
     }
 
     /// `mesh2 { vertex_vectors { } ... face_indices { } ... }` up to its modifiers.
     pub(super) fn mesh2(&mut self) -> Result<Shape> {
-        let mut mesh = Mesh::new();
-        let mut found = false;
+        let (mut mesh, mut textures, mut found) = (Mesh::default(), Vec::new(), false);
         while let Some(keyword) = self.peek_word()? {
             let here = self.here();
             match keyword {
                 Keyword::VertexVectors => {
                     self.next()?;
-                    mesh.vertices = self.counted(24, Self::corner)?;
+                    mesh.vertices = self.counted(24, |r| r.corner().map(Point3::from))?;
                 }
                 Keyword::NormalVectors => {
                     self.next()?;
-                    mesh.normals = self.counted(24, Self::corner)?;
+                    mesh.normals = self.counted(24, |r| r.corner().map(Vec3::from))?;
                 }
                 Keyword::UvVectors => {
                     self.next()?;
@@ -163,12 +129,13 @@ impl Parser<'_> {
                 }
                 Keyword::TextureList => {
                     self.next()?;
-                    mesh.textures = self.counted(8, Self::listed_texture)?;
+                    textures = self.counted(8, Self::listed_texture)?;
                 }
                 Keyword::FaceIndices => {
                     self.next()?;
                     found = true;
-                    self.face_indices(&mut mesh)?;
+                    mesh.faces = self.face_indices(mesh.vertices.len(), textures.len())?;
+                    mesh.uv_faces.clear();
                 }
                 Keyword::NormalIndices => {
                     self.next()?;
@@ -185,8 +152,9 @@ impl Parser<'_> {
                     self.next()?;
                     let count = mesh.uv.len();
                     let lists = self.counted(12, |r| r.indices(count, "uv"))?;
-                    for (face, list) in mesh.faces.iter_mut().zip(lists) {
-                        face.uv = Some(list);
+                    mesh.uv_faces.resize(mesh.faces.len(), None);
+                    for (uv, list) in mesh.uv_faces.iter_mut().zip(lists) {
+                        *uv = Some(list);
                     }
                 }
                 _ => break,
@@ -201,19 +169,17 @@ impl Parser<'_> {
                 face.normals = face.normals.or(Some(face.vertices));
             }
         }
-        if mesh.faces.iter().all(|face| face.uv.is_none()) {
-            let count = mesh.uv.len();
-            for face in &mut mesh.faces {
-                let is_known = face.vertices.iter().all(|&i| (i as usize) < count);
-                face.uv = is_known.then_some(face.vertices);
-            }
+        if mesh.uv_faces.iter().all(Option::is_none) {
+            let is_known = |corners: &[u32; 3]| corners.iter().all(|&i| (i as usize) < mesh.uv.len());
+            let corners = mesh.faces.iter().map(|face| face.vertices);
+            mesh.uv_faces = corners.map(|corners| Some(corners).filter(is_known)).collect();
         }
         // A normal without length makes its face flat.
-        let sound: Vec<bool> = mesh.normals.iter().map(|n| length(*n) > 0.0).collect();
+        let sound: Vec<bool> = mesh.normals.iter().map(|n| length(n.to_array()) > 0.0).collect();
         for face in &mut mesh.faces {
             face.normals = face.normals.filter(|list| list.iter().all(|&n| sound[n as usize]));
         }
-        self.finish_mesh(mesh)
+        self.finish_mesh(mesh, textures)
     }
 
     /// `{ n, item, item, ... }`.
@@ -266,10 +232,9 @@ impl Parser<'_> {
         Ok(texture)
     }
 
-    fn face_indices(&mut self, mesh: &mut Mesh) -> Result<()> {
-        let count = mesh.vertices.len();
-        let textures = mesh.textures.len();
-        mesh.faces = self.counted(size_of::<Face>(), |r| {
+    /// Faces over `count` corners, with numbers of `textures` textures.
+    fn face_indices(&mut self, count: usize, textures: usize) -> Result<Vec<Face>> {
+        self.counted(size_of::<Face>(), |r| {
             let place = r.here();
             let vertices = r.indices(count, "vertex")?;
             let mut texture = None;
@@ -290,30 +255,38 @@ impl Parser<'_> {
                 texture =
                     Some(if at == [first; 3] { FaceTexture::One(first) } else { FaceTexture::Corners(at) });
             }
-            Ok(Face { vertices, normals: None, texture, uv: None })
-        })?;
-        Ok(())
+            Ok(Face { vertices, normals: None, texture })
+        })
     }
 
-    fn finish_mesh(&mut self, mut mesh: Mesh) -> Result<Shape> {
+    fn finish_mesh(&mut self, mut mesh: Mesh, textures: Vec<Rc<Texture>>) -> Result<Shape> {
         let place: Place = self.here();
         if mesh.faces.is_empty() {
             return Err(Error::invalid(place, "this mesh has no triangles"));
         }
         if self.take_word(Keyword::InsideVector)? {
-            mesh.inside_vector = Some(self.normal("the inside vector")?);
+            mesh.inside_vector = Some(vector(self.normal("the inside vector")?));
+        }
+        for normal in &mut mesh.normals {
+            *normal = unit(normal.to_array());
+        }
+        if mesh.uv_faces.iter().all(Option::is_none) {
+            mesh.uv_faces.clear();
+        } else {
+            mesh.uv_faces.resize(mesh.faces.len(), None);
         }
         mesh.vertices.shrink_to_fit();
         mesh.normals.shrink_to_fit();
         mesh.faces.shrink_to_fit();
         mesh.uv.shrink_to_fit();
-        mesh.charge.resize(mesh.bytes());
-        self.check_memory(0, place)?;
-        Ok(Shape::Mesh(Rc::new(mesh)))
+        mesh.uv_faces.shrink_to_fit();
+        self.check_memory(bytes(&mesh), place)?;
+        Ok(Shape::textured(scene::Shape::Mesh(Arc::new(mesh)), textures.into_iter().map(Some).collect()))
     }
 }
 
-/// The number of `texture` among the mesh's; the last few are compared, since neighbours mostly share one.
+/// The number of `texture` among the mesh's; the last few are compared, since neighbours mostly
+/// share one.
 fn texture_index(textures: &mut Vec<Rc<Texture>>, texture: Rc<Texture>) -> u32 {
     const COMPARED: usize = 8;
     let first = textures.len().saturating_sub(COMPARED);

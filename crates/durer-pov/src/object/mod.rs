@@ -28,26 +28,16 @@ use crate::parser::{Item, Parser};
 use crate::texture::{Interior, Layer, Texture};
 use crate::transform::{Matrix, dot};
 use crate::value::Value;
-use durer_scene::{FillRule, Operation};
+use durer_scene as scene;
+use scene::Operation;
 
-pub(crate) use extension::Named;
-pub(crate) use mesh::Mesh;
-pub(crate) use subdivision::bytes as subdivision_bytes;
-
-/// The corners of a triangle, or a vector for each.
-pub(crate) type Three = [[f64; 3]; 3];
-
-/// A surface in its own numbers.
+/// What an object is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
-    Sphere {
-        center: [f64; 3],
-        radius: f64,
-    },
-    Box {
-        a: [f64; 3],
-        b: [f64; 3],
-    },
+    /// A surface as the scene describes it.
+    Leaf(scene::Shape),
+    /// A mesh or a blob, and the textures that its faces refer to or that its components have.
+    Textured(scene::Shape, Rc<[Option<Rc<Texture>>]>),
     /// A box that has no extent along one axis: a rectangle, which has no inside.
     FlatBox {
         a: [f64; 3],
@@ -55,98 +45,67 @@ pub(crate) enum Shape {
     },
     /// An object without a visible point, such as a sphere of radius 0.
     Nothing,
-    Cylinder {
-        base: [f64; 3],
-        cap: [f64; 3],
-        radius: f64,
-    },
-    Cone {
-        base: [f64; 3],
-        base_radius: f64,
-        cap: [f64; 3],
-        cap_radius: f64,
-    },
-    Plane {
-        normal: [f64; 3],
-        distance: f64,
-    },
-    Disc {
-        center: [f64; 3],
-        normal: [f64; 3],
-        radius: f64,
-        hole: f64,
-    },
-    Parallelogram {
-        corner: [f64; 3],
-        u: [f64; 3],
-        v: [f64; 3],
-    },
-    Triangle(Three),
-    SmoothTriangle(Box<(Three, Three)>),
-    Polygon(Rc<Vec<Vec<[f64; 3]>>>, FillRule),
-    Mesh(Rc<Mesh>),
-    /// Coefficients of x², y², z², xy, xz, yz, x, y, z, 1.
-    Quadric(Box<[f64; 10]>),
-    /// Order and coefficients, by falling powers of x, then of y, then of z.
-    Polynomial(u32, Rc<[f64]>),
-    /// About the y axis.
-    Torus {
-        major: f64,
-        minor: f64,
-    },
-    /// Swept by spheres on an ellipse: its semi-axis, its focal distance, their mean radius.
-    Cyclide {
-        a: f64,
-        c: f64,
-        d: f64,
-    },
-    Prism(Rc<durer_scene::Prism>),
-    Sweep(Rc<durer_scene::StraightSweep>),
-    PathSweep(durer_scene::PathSweep),
-    /// Centre and radius each.
-    SphereSweep(durer_scene::SweepSpline, Rc<[[f64; 4]]>),
-    /// Radii and heights.
-    Sor(Rc<[[f64; 2]]>),
-    /// Radii and heights.
-    Lathe(durer_scene::LatheSpline, Rc<[[f64; 2]]>),
-    Patch(Rc<durer_scene::Patch>),
-    TriangularPatch(Rc<durer_scene::TriangularPatch>),
-    Nurbs(Rc<durer_scene::NurbsData>),
-    Subdivision(Rc<durer_scene::SubdivisionData>),
-    Parametric(Rc<durer_scene::Parametric>),
-    Sewn(Rc<durer_scene::SewnData>),
-    Ovus {
-        bottom: f64,
-        top: f64,
-    },
-    Lemon {
-        ends: [[f64; 3]; 2],
-        radii: [f64; 2],
-        inner_radius: f64,
-    },
-    Named(Box<Named>),
-    Sector {
-        center: [f64; 3],
-        radius: f64,
-        axis: [f64; 3],
-        half_angle: f64,
-    },
-    /// And whether it is open.
-    Isosurface(Rc<durer_scene::Isosurface>, bool),
-    Superellipsoid {
-        e: f64,
-        n: f64,
-    },
-    Blob(Rc<blob::Blob>),
-    Julia(Box<durer_scene::Julia>),
-    Ifs(durer_scene::Ifs),
-    HeightField(Rc<durer_scene::HeightField>),
-    Terrain(Rc<durer_scene::Terrain>),
     /// A solid and what is done to it.
-    Deform(Rc<Object>, Rc<[durer_scene::Warp]>),
+    Deform(Rc<Object>, Rc<[scene::Warp]>),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
     Light(Rc<Light>),
+}
+
+impl From<scene::Shape> for Shape {
+    fn from(leaf: scene::Shape) -> Self {
+        Self::Leaf(leaf)
+    }
+}
+
+impl Shape {
+    /// The shape with textures. They are dropped if all are `None`.
+    fn textured(leaf: scene::Shape, textures: Vec<Option<Rc<Texture>>>) -> Self {
+        if textures.iter().all(Option::is_none) {
+            Self::Leaf(leaf)
+        } else {
+            Self::Textured(leaf, textures.into())
+        }
+    }
+
+    /// The single surface that it is, without its textures.
+    pub(crate) fn leaf(&self) -> Option<&scene::Shape> {
+        match self {
+            Self::Leaf(leaf) | Self::Textured(leaf, _) => Some(leaf),
+            _ => None,
+        }
+    }
+
+    /// The memory of the lists and textures that all copies of it share.
+    pub(crate) fn shared_bytes(&self) -> usize {
+        use scene::Shape as Leaf;
+        let outlines = |all: &[Vec<[f64; 2]>]| all.iter().map(|outline| size_of_val(&outline[..])).sum();
+        let textures = match self {
+            Self::Textured(_, all) => {
+                let layers: usize = all.iter().flatten().map(|texture| texture.size()).sum();
+                size_of_val(&all[..]) + layers * size_of::<Layer>()
+            }
+            _ => 0,
+        };
+        let numbers = match self.leaf() {
+            Some(Leaf::Polygon { loops, .. }) => loops.iter().map(|points| size_of_val(&points[..])).sum(),
+            Some(Leaf::Mesh(mesh)) => mesh::bytes(mesh),
+            Some(Leaf::Polynomial { coefficients, .. }) => size_of_val(&coefficients[..]),
+            Some(Leaf::Prism(prism)) => outlines(&prism.outlines),
+            Some(Leaf::StraightSweep(sweep)) => outlines(&sweep.outlines),
+            Some(Leaf::SphereSweep(_, spheres)) => size_of_val(&spheres[..]),
+            Some(Leaf::Sor(points) | Leaf::Lathe(_, points)) => size_of_val(&points[..]),
+            Some(Leaf::Patch(patch)) => size_of_val(&patch.points[..]),
+            Some(Leaf::TriangularPatch(patch)) => size_of_val(&patch.points[..]),
+            Some(Leaf::Nurbs(data)) => size_of_val(&data.points[..]),
+            Some(Leaf::Sewn(data)) => data.surfaces.iter().map(|one| size_of_val(&one.points[..])).sum(),
+            Some(Leaf::Subdivision(data)) => subdivision::bytes(data),
+            Some(Leaf::Blob(blob)) => size_of_val(&blob.components[..]),
+            Some(Leaf::HeightField(field)) => field.bytes(),
+            _ => 0,
+        };
+        numbers + textures
+    }
 }
 
 /// Habits; on a union they hold for every part.
@@ -187,9 +146,12 @@ pub(crate) struct Object {
     /// It, a part of it or something that cuts it is [`Shape::FlatBox`] or [`Shape::Nothing`].
     pub(crate) lacks_volume: bool,
     charge: Charge,
+    /// The charge for what all copies of the shape share.
+    pub(crate) shared: Option<Rc<Charge>>,
 }
 
-/// How deeply unions may stand in each other, by whatever names: what follows the reader walks them recursively.
+/// How deeply unions may stand in each other, by whatever names: what follows the reader walks them
+/// recursively.
 const DEEPEST: u32 = 256;
 
 impl Object {
@@ -209,6 +171,7 @@ impl Object {
             Shape::Union(parts) | Shape::Csg(_, parts) => parts.iter().any(|part| part.lacks_volume),
             _ => false,
         };
+        let shared = Some(shape.shared_bytes()).filter(|bytes| *bytes > 0);
         Self {
             shape,
             place: Matrix::IDENTITY,
@@ -224,6 +187,7 @@ impl Object {
             leaves,
             lacks_volume,
             charge: Charge::new(size_of::<Self>() + extra),
+            shared: shared.map(|bytes| Rc::new(Charge::new(bytes))),
         }
     }
 
@@ -354,6 +318,7 @@ impl Parser<'_> {
                     r.expect(Mark::BraceOpen)?;
                     match r.copied(place)? {
                         Some(known) => known,
+                        None if *keyword == Keyword::Isosurface => r.isosurface(place)?,
                         None => Object::new(r.shape(*keyword, place)?, place),
                     }
                 }
@@ -421,16 +386,17 @@ impl Parser<'_> {
         Ok(Object::new(Shape::Csg(operation, solids), place))
     }
 
-    /// Replaces a part that is no solid. A disc without a hole becomes its plane, because the inside of
-    /// a disc is all that lies behind it (a fact of the scene language). A merge leaves out a box
-    /// without thickness.
+    /// Replaces a part that is no solid. A disc without a hole becomes its plane, because the
+    /// inside of a disc is all that lies behind it (a fact of the scene language). A merge leaves
+    /// out a box without thickness.
     fn as_solid(&mut self, part: Rc<Object>, operation: Operation) -> Result<Option<Rc<Object>>> {
         match &part.shape {
-            &Shape::Disc { center, normal, hole: 0.0, .. } => {
+            &Shape::Leaf(scene::Shape::Disc { centre, normal, hole: 0.0, .. }) => {
                 self.note_left_out("the border of a disc in a solid", part.at)?;
-                let distance = dot(center, normal) / dot(normal, normal).sqrt();
+                let [from, across] = [centre.to_array(), normal.to_array()];
+                let distance = dot(from, across) / dot(across, across).sqrt();
                 let mut plane = (*part).clone();
-                plane.shape = Shape::Plane { normal, distance };
+                plane.shape = scene::Shape::Plane { normal, distance }.into();
                 Ok(Some(Rc::new(plane)))
             }
             Shape::FlatBox { .. } if operation == Operation::Merge => {
@@ -441,7 +407,8 @@ impl Parser<'_> {
         }
     }
 
-    /// The objects of a union or of another combination, after its word. A block without any is read, with a warning.
+    /// The objects of a union or of another combination, after its word. A block without any is
+    /// read, with a warning.
     fn parts(&mut self, what: &str, place: Place) -> Result<Vec<Rc<Object>>> {
         self.expect(Mark::BraceOpen)?;
         let mut parts = Vec::new();

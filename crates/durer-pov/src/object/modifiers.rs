@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use durer_scene::Operation;
+use durer_scene::{Operation, Shape as Leaf};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Result};
@@ -66,15 +66,17 @@ impl Parser<'_> {
                     if matches!(
                         object.shape,
                         Shape::Nothing
-                            | Shape::Cylinder { .. }
-                            | Shape::Cone { .. }
-                            | Shape::Named(_)
-                            | Shape::Isosurface(..)
-                            | Shape::Prism(_)
-                            | Shape::Sweep(_)
-                            | Shape::PathSweep(_)
-                            | Shape::Sor(_)
-                            | Shape::Lemon { .. }
+                            | Shape::Leaf(
+                                Leaf::Cylinder { .. }
+                                    | Leaf::Cone { .. }
+                                    | Leaf::Named(_)
+                                    | Leaf::Isosurface(_)
+                                    | Leaf::Prism(_)
+                                    | Leaf::StraightSweep(_)
+                                    | Leaf::PathSweep(_)
+                                    | Leaf::Sor(_)
+                                    | Leaf::Lemon { .. }
+                            )
                     ) =>
                 {
                     habits.open = true;
@@ -166,7 +168,8 @@ impl Parser<'_> {
         Ok(true)
     }
 
-    /// Texture statements that an object may hold: a texture, another one on it, or a pigment, normal or finish.
+    /// Texture statements that an object may hold: a texture, another one on it, or a pigment,
+    /// normal or finish.
     pub(super) fn texture_item(&mut self, texture: &mut Option<Rc<Texture>>) -> Result<bool> {
         match self.peek()? {
             Item::Word(Keyword::Texture) => {

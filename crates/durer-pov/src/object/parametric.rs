@@ -6,8 +6,7 @@ use crate::keywords::Keyword;
 use crate::parser::Parser;
 use durer_formula::{Builder, Formula, FormulaError, Op};
 use durer_math::Point3;
-use durer_scene::{Container, Parametric};
-use std::rc::Rc;
+use durer_scene::{self as scene, Container, Parametric};
 use std::sync::Arc;
 
 impl Parser<'_> {
@@ -74,7 +73,8 @@ impl Parser<'_> {
             }
         }
         let domain = [0, 1].map(|k| [from[k], to[k]]);
-        Ok(Shape::Parametric(Rc::new(Parametric { functions, domain, container: Some(container) })))
+        let surface = Parametric { functions, domain, container: Some(container) };
+        Ok(scene::Shape::Parametric(Arc::new(surface)).into())
     }
 }
 

@@ -1,14 +1,14 @@
 //! Patches: surfaces over the unit square, given by nets of control points. `bicubic_patch` is
 //! POV-Ray's; `bilinear`, `patch` and `nurbs` are durer's own.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
-use durer_scene::{NurbsData, Patch, SewnData, TriangularPatch, TrimLoop};
+use durer_scene::{self as scene, NurbsData, Patch, SewnData, TriangularPatch, TrimLoop};
 
 /// How the points of a `patch` make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,7 +142,7 @@ impl Parser<'_> {
         if points.iter().all(|p| p[..3] == points[0][..3]) {
             return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
         }
-        Ok(Shape::TriangularPatch(Rc::new(TriangularPatch { side, points, uv })))
+        Ok(scene::Shape::TriangularPatch(Arc::new(TriangularPatch { side, points, uv })).into())
     }
 
     /// `[bezier_spline | linear_spline | b_spline | cubic_spline | hermite] NU, NV, points`, or
@@ -230,7 +230,7 @@ impl Parser<'_> {
         }
         // It is made here, so that an edge without a partner is named where the block is.
         data.check().map_err(|why| Error::invalid(place, why.to_string()))?;
-        Ok(Shape::Sewn(Rc::new(data)))
+        Ok(scene::Shape::Sewn(Arc::new(data)).into())
     }
 
     /// The numbers of a `nurbs`, not yet checked.
@@ -284,7 +284,7 @@ impl Parser<'_> {
         if data.points.iter().all(|p| p[..3] == data.points[0][..3]) {
             return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
         }
-        Ok(Shape::Nurbs(Rc::new(data)))
+        Ok(scene::Shape::Nurbs(Arc::new(data)).into())
     }
 
     /// `linear_spline N, <u, v>, ...`, `bezier_spline N, <u, v>, ...` or `nurbs_curve degree D, N,
@@ -370,7 +370,7 @@ impl Parser<'_> {
         Ok(n as usize)
     }
 
-    /// Points of a net, `<x, y, z>`, or `<x, y, z, w>` with a weight; and how many rows were before.
+    /// Points of a net, `<x, y, z>`, or `<x, y, z, w>` with a weight, after `rows` rows.
     fn weighted_net(&mut self, [nu, nv]: [usize; 2], rows: usize) -> Result<Vec<[f64; 4]>> {
         let mut points = Vec::new();
         for n in 0..nu * nv {
@@ -441,6 +441,6 @@ impl Parser<'_> {
         if points.iter().all(|p| p[..3] == points[0][..3]) {
             return Ok(self.nothing("all points of this patch are the same, so it has no surface", place));
         }
-        Ok(Shape::Patch(Rc::new(Patch { size, points, uv })))
+        Ok(scene::Shape::Patch(Arc::new(Patch { size, points, uv })).into())
     }
 }

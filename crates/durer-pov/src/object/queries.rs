@@ -1,12 +1,13 @@
 //! What the scene asks about its own objects: `trace`, `inside`, `min_extent` and `max_extent`.
 //!
-//! An object that is asked for the first time is made ready for rays as if it were the whole scene, so
-//! the answers are those of the kernels: exact. The last few are kept, since scenes ask in loops.
+//! An object that is asked for the first time is made ready for rays as if it were the whole scene,
+//! so the answers are those of the kernels: exact. The last few are kept, since scenes ask in
+//! loops.
 //!
 //! Facts of the scene language, found by `#debug` with POV-Ray 3.7:
 //!
-//! - `trace` leaves out surfaces on which the ray starts. The normal is the object's own and points out
-//!   of solids, whichever way the ray goes. That of a flat triangle is the opposite of
+//! - `trace` leaves out surfaces on which the ray starts. The normal is the object's own and points
+//!   out of solids, whichever way the ray goes. That of a flat triangle is the opposite of
 //!   `cross(b - a, c - a)`, that of a smooth one is interpolated.
 //! - `inside`: what is clipped holds what the object and all its clips hold.
 //! - The extent is that of a box in the object's own frame, of which the corners are transformed.
@@ -14,14 +15,14 @@
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use durer_math::{Point3, Ray};
-use durer_scene as scene;
+use durer_math::{Point3, Ray, Vec3};
+use durer_scene::{self as scene, Shape as Leaf};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Place, Result};
-use crate::limits::{self, Charge};
+use crate::limits::Charge;
 use crate::parser::Parser;
-use crate::scene_builder::{Lights, point, surface, vector};
+use crate::scene_builder::{Lights, point, vector};
 use crate::transform::{Matrix, cross, dot};
 use crate::value::{Terms, Value};
 
@@ -157,7 +158,7 @@ impl Parser<'_> {
         self.count_steps(object.leaves, place)?;
         let bytes = (object.leaves as usize).saturating_mul(SURFACE_BYTES);
         self.check_memory(bytes, place)?;
-        let made = limits::giving_back(|| self.emitted(object, &mut Lights::new()));
+        let made = self.emitted_for_a_question(object);
         let made = made.map_err(|fault| from_here(fault, place))?;
         let ready = match made {
             Some(made) => {
@@ -231,9 +232,9 @@ impl Parser<'_> {
     /// The box of an object in the space around it.
     fn extent_of(&mut self, object: &Rc<Object>, place: Place) -> Result<Extent> {
         let own = match &object.shape {
-            &Shape::Sphere { center, radius } if is_similarity(&object.place) => {
+            &Shape::Leaf(Leaf::Sphere { centre, radius }) if is_similarity(&object.place) => {
                 // A sphere stays one.
-                let moved = object.place.point(center);
+                let moved = object.place.point(centre.to_array());
                 let radius = radius * length_of(object.place.rows[0]);
                 return self.cut_extent(object, Extent::around(moved, [radius; 3]), place);
             }
@@ -249,7 +250,9 @@ impl Parser<'_> {
                 for (number, part) in parts.iter().enumerate() {
                     let away = *operation == scene::Operation::Difference && number > 0;
                     all = all.within(&match half_space(part) {
-                        Some(half) if away && matches!(part.shape, Shape::Plane { .. }) => half.other_half(),
+                        Some(half) if away && matches!(part.shape, Shape::Leaf(Leaf::Plane { .. })) => {
+                            half.other_half()
+                        }
                         Some(half) if !away => half,
                         _ if away || part.habits.inverse => continue,
                         _ => self.extent_of(part, place)?,
@@ -276,55 +279,27 @@ impl Parser<'_> {
 
     /// The box of a single shape in its own frame.
     fn extent_of_shape(&mut self, shape: &Shape, object: &Object, place: Place) -> Result<Extent> {
-        Ok(match shape {
-            Shape::Nothing => Extent::around([0.0; 3], [0.0; 3]),
-            Shape::Light(_) | Shape::Plane { .. } => Extent::SPACE,
-            &Shape::Sphere { center, radius } => Extent::around(center, [radius; 3]),
-            &Shape::Box { a, b } | &Shape::FlatBox { a, b } => Extent::of([a, b]),
-            &Shape::Cylinder { base, cap, radius } => cone(base, radius, cap, radius),
-            &Shape::Cone { base, base_radius, cap, cap_radius } => cone(base, base_radius, cap, cap_radius),
-            &Shape::Disc { center, normal, radius, .. } => disc(center, normal, radius),
-            &Shape::Parallelogram { corner, u, v } => {
-                let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
-                Extent::of([corner, sum(corner, u), sum(corner, v), sum(sum(corner, u), v)])
-            }
-            Shape::Triangle(corners) => Extent::of(*corners),
-            Shape::SmoothTriangle(both) => Extent::of(both.0),
-            Shape::Polygon(loops, _) => Extent::of(loops.iter().flatten().copied()),
-            Shape::Mesh(mesh) => Extent::of(mesh.vertices.iter().copied()),
-            &Shape::Torus { major, minor } => {
-                let around = major.abs() + minor.abs();
-                Extent::around([0.0; 3], [around, minor.abs(), around])
-            }
-            Shape::Superellipsoid { .. } => Extent::around([0.0; 3], [1.0; 3]),
-            Shape::Isosurface(iso, _) => match iso.container {
-                scene::Container::Box(a, b) => Extent::of([[a.x, a.y, a.z], [b.x, b.y, b.z]]),
-                scene::Container::Ball(c, radius) => Extent::around([c.x, c.y, c.z], [radius; 3]),
-            },
-            Shape::Parametric(it) => match it.container {
-                Some(scene::Container::Box(a, b)) => Extent::of([[a.x, a.y, a.z], [b.x, b.y, b.z]]),
-                Some(scene::Container::Ball(c, radius)) => Extent::around([c.x, c.y, c.z], [radius; 3]),
-                None => Extent::EMPTY,
-            },
-            other => {
-                // Its bounds in the kernel, from the shape alone.
-                let alone = match other {
-                    Shape::Deform(..) => {
-                        let mut alone = object.clone();
-                        alone.place = Matrix::IDENTITY;
-                        limits::giving_back(|| self.emitted(&alone, &mut Lights::new()))?
-                    }
-                    _ => Some(scene::Object::new(surface(other, object.at)?)),
-                };
-                let Some(alone) = alone else { return Ok(Extent::EMPTY) };
-                let alone = scene::Scene { objects: vec![alone], ..scene::Scene::default() };
-                let lowered = alone
-                    .lower()
-                    .map_err(|fault| from_here(Error::invalid(object.at, fault.kind.to_string()), place))?;
-                let bounds = lowered.geometry.bounds();
-                Extent { min: bounds.min.to_vec().to_array(), max: bounds.max.to_vec().to_array() }
-            }
-        })
+        match *shape {
+            Shape::Nothing => return Ok(Extent::around([0.0; 3], [0.0; 3])),
+            Shape::Light(_) => return Ok(Extent::SPACE),
+            Shape::FlatBox { a, b } => return Ok(Extent::of([a, b])),
+            _ => {}
+        }
+        if let Some(extent) = shape.leaf().and_then(Extent::of_leaf) {
+            return Ok(extent);
+        }
+        // Its bounds in the kernel, from the shape alone.
+        let alone = match shape {
+            Shape::Deform(..) => Object { place: Matrix::IDENTITY, ..object.clone() },
+            _ => Object::new(shape.clone(), object.at),
+        };
+        let Some(alone) = self.emitted_for_a_question(&alone)? else { return Ok(Extent::EMPTY) };
+        let alone = scene::Scene { objects: vec![alone], ..scene::Scene::default() };
+        let lowered = alone
+            .lower()
+            .map_err(|fault| from_here(Error::invalid(object.at, fault.kind.to_string()), place))?;
+        let bounds = lowered.geometry.bounds();
+        Ok(Extent { min: bounds.min.to_array(), max: bounds.max.to_array() })
     }
 }
 
@@ -341,8 +316,9 @@ impl Ready {
     fn first(&self, ray: &Ray) -> Option<([f64; 3], [f64; 3])> {
         let geometry = &self.geometry.geometry;
         let nearest = geometry.closest(ray)?;
-        let starts_there = |p: Point3, dp: durer_math::Vec3| {
-            // The start is an f64 point of the surface if the surface passes between it and its neighbours.
+        let starts_there = |p: Point3, dp: Vec3| {
+            // The start is an f64 point of the surface if the surface passes between it and its
+            // neighbours.
             let near = |o: f64, p: f64, dp: f64| {
                 let (o, p) = (o.abs().max(p.abs()), (o - p).abs());
                 p <= dp + (o.next_up() - o)
@@ -454,6 +430,48 @@ impl Extent {
         points.into_iter().fold(Self::EMPTY, |all, p| all.with(&one(p)))
     }
 
+    /// The box of a surface in its own frame, if its numbers tell it.
+    fn of_leaf(leaf: &Leaf) -> Option<Self> {
+        Some(match leaf {
+            Leaf::Plane { .. } => Self::SPACE,
+            &Leaf::Sphere { centre, radius } => Self::ball(centre, radius),
+            &Leaf::Box { a, b } => Self::of_points([a, b]),
+            &Leaf::Cylinder { base, cap, radius } => cone(base, radius, cap, radius),
+            &Leaf::Cone { base, base_radius, cap, cap_radius } => cone(base, base_radius, cap, cap_radius),
+            &Leaf::Disc { centre, normal, radius, .. } => disc(centre, normal, radius),
+            &Leaf::Parallelogram { corner, u, v } => {
+                Self::of_points([corner, corner + u, corner + v, corner + u + v])
+            }
+            Leaf::Triangle(corners) => Self::of_points(*corners),
+            Leaf::SmoothTriangle(both) => Self::of_points(both.0),
+            Leaf::Polygon { loops, .. } => Self::of_points(loops.iter().flatten().copied()),
+            Leaf::Mesh(mesh) => Self::of_points(mesh.vertices.iter().copied()),
+            Leaf::Torus { major, minor } => {
+                let around = major.abs() + minor.abs();
+                Self::around([0.0; 3], [around, minor.abs(), around])
+            }
+            Leaf::Superellipsoid { .. } => Self::around([0.0; 3], [1.0; 3]),
+            Leaf::Isosurface(iso) => Self::of_container(iso.container),
+            Leaf::Parametric(it) => it.container.map_or(Self::EMPTY, Self::of_container),
+            _ => return None,
+        })
+    }
+
+    fn of_points(points: impl IntoIterator<Item = Point3>) -> Self {
+        Self::of(points.into_iter().map(Point3::to_array))
+    }
+
+    fn of_container(container: scene::Container) -> Self {
+        match container {
+            scene::Container::Box(a, b) => Self::of_points([a, b]),
+            scene::Container::Ball(centre, radius) => Self::ball(centre, radius),
+        }
+    }
+
+    fn ball(centre: Point3, radius: f64) -> Self {
+        Self::around(centre.to_array(), [radius; 3])
+    }
+
     fn around(middle: [f64; 3], half: [f64; 3]) -> Self {
         Self {
             min: std::array::from_fn(|i| middle[i] - half[i]),
@@ -514,10 +532,10 @@ fn half_space(part: &Object) -> Option<Extent> {
     if !part.place.is_identity() || !part.clips.is_empty() {
         return None;
     }
-    if let Shape::Quadric(coefficients) = &part.shape {
+    if let Shape::Leaf(Leaf::Quadric(coefficients)) = &part.shape {
         return (!part.habits.inverse).then(|| cylinder(coefficients)).flatten();
     }
-    let Shape::Plane { normal, distance } = part.shape else { return None };
+    let Shape::Leaf(Leaf::Plane { normal, distance }) = part.shape else { return None };
     let axis = (0..3).find(|&i| normal[i] != 0.0)?;
     if (0..3).any(|i| i != axis && normal[i] != 0.0) {
         return None;
@@ -546,7 +564,8 @@ fn length_of(v: [f64; 3]) -> f64 {
     crate::transform::length(v)
 }
 
-/// Whether lengths are only scaled by it: exactly, so that a turned sphere counts only if its matrix says so.
+/// Whether lengths are only scaled by it: exactly, so that a turned sphere counts only if its
+/// matrix says so.
 fn is_similarity(place: &Matrix) -> bool {
     let [x, y, z, _] = place.rows;
     let size = dot(x, x);
@@ -558,17 +577,18 @@ fn is_similarity(place: &Matrix) -> bool {
 }
 
 /// The box of a flat disc: along each axis the radius times the sine of its angle to the normal.
-fn disc(center: [f64; 3], normal: [f64; 3], radius: f64) -> Extent {
+fn disc(centre: Point3, normal: Vec3, radius: f64) -> Extent {
+    let (centre, normal) = (centre.to_array(), normal.to_array());
     let all = dot(normal, normal);
     let half = std::array::from_fn(|i| {
         let across: f64 = (0..3).filter(|&j| j != i).map(|j| normal[j] * normal[j]).sum();
         radius * (across / all).sqrt()
     });
-    if all > 0.0 { Extent::around(center, half) } else { Extent::around(center, [radius; 3]) }
+    if all > 0.0 { Extent::around(centre, half) } else { Extent::around(centre, [radius; 3]) }
 }
 
 /// The box of a cone: that of the discs at its ends.
-fn cone(base: [f64; 3], base_radius: f64, cap: [f64; 3], cap_radius: f64) -> Extent {
-    let axis = std::array::from_fn(|i| cap[i] - base[i]);
+fn cone(base: Point3, base_radius: f64, cap: Point3, cap_radius: f64) -> Extent {
+    let axis = cap - base;
     disc(base, axis, base_radius).with(&disc(cap, axis, cap_radius))
 }

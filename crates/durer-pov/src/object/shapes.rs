@@ -1,14 +1,14 @@
 //! The numbers of POV-Ray's shapes.
 
-use std::rc::Rc;
-
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
+use crate::scene_builder::{point, unit, vector};
 use crate::transform::{cross, dot, length};
-use durer_scene::{MAX_ORDER, coefficient_count, place_of};
+use durer_math::Point3;
+use durer_scene::{self as scene, MAX_ORDER, coefficient_count, place_of};
 
 impl Parser<'_> {
     /// The numbers of the shape `keyword`, after its opening brace.
@@ -16,11 +16,11 @@ impl Parser<'_> {
         Ok(match keyword {
             Keyword::Sphere => {
                 self.need("a sphere needs its centre after `{`")?;
-                let center = self.corner()?;
+                let centre = point(self.corner()?);
                 self.need("a sphere needs a radius after its centre")?;
                 match self.size()? {
                     0.0 => self.nothing("this sphere has the radius 0", place),
-                    radius => Shape::Sphere { center, radius },
+                    radius => scene::Shape::Sphere { centre, radius }.into(),
                 }
             }
             Keyword::Box => {
@@ -29,33 +29,33 @@ impl Parser<'_> {
                 self.need("a box needs its second corner after the first")?;
                 let b = self.vector()?;
                 match (0..3).filter(|&i| a[i] == b[i]).count() {
-                    0 => Shape::Box { a, b },
+                    0 => scene::Shape::Box { a: point(a), b: point(b) }.into(),
                     1 => Shape::FlatBox { a, b },
                     _ => self.nothing("this box has neither volume nor area", place),
                 }
             }
             Keyword::Cylinder => {
                 self.need("a cylinder needs the centres of its two ends")?;
-                let base = self.corner()?;
+                let base = point(self.corner()?);
                 self.need("a cylinder needs the centre of its second end after the first")?;
-                let cap = self.corner()?;
+                let cap = point(self.corner()?);
                 self.need("a cylinder needs a radius after the centres of its ends")?;
                 if base == cap {
                     return Err(Error::invalid(place, "this cylinder's ends are the same point"));
                 }
                 match self.size()? {
                     0.0 => self.nothing("this cylinder has the radius 0", place),
-                    radius => Shape::Cylinder { base, cap, radius },
+                    radius => scene::Shape::Cylinder { base, cap, radius }.into(),
                 }
             }
             Keyword::Cone => {
                 self.need("a cone needs the centre of its first end")?;
-                let base = self.corner()?;
+                let base = point(self.corner()?);
                 self.need("a cone needs a radius after the centre of its first end")?;
                 let base_radius = self.float()?;
                 self.skip_comma()?;
                 self.need("a cone needs the centre of its second end after the first radius")?;
-                let cap = self.corner()?;
+                let cap = point(self.corner()?);
                 self.need("a cone needs a radius after the centre of its second end")?;
                 let cap_radius = self.float()?;
                 if base == cap {
@@ -66,18 +66,20 @@ impl Parser<'_> {
                     (a, b) if a.min(b) < 0.0 && a.max(b) > 0.0 => {
                         return Err(Error::invalid(place, "this cone's radii have different signs"));
                     }
-                    (a, b) => Shape::Cone { base, base_radius: a.abs(), cap, cap_radius: b.abs() },
+                    (a, b) => {
+                        scene::Shape::Cone { base, base_radius: a.abs(), cap, cap_radius: b.abs() }.into()
+                    }
                 }
             }
             Keyword::Plane => {
                 self.need("a plane needs its normal")?;
-                let normal = self.normal("the plane's normal")?;
+                let normal = vector(self.normal("the plane's normal")?);
                 self.need("a plane needs its distance from the origin after the normal")?;
-                Shape::Plane { normal, distance: self.float()? }
+                scene::Shape::Plane { normal, distance: self.float()? }.into()
             }
             Keyword::Disc => {
                 self.need("a disc needs its centre")?;
-                let center = self.corner()?;
+                let centre = point(self.corner()?);
                 self.need("a disc needs its normal after the centre")?;
                 let normal = self.corner()?;
                 self.need("a disc needs a radius after its normal")?;
@@ -88,16 +90,16 @@ impl Parser<'_> {
                 } else if hole >= radius {
                     self.nothing("this disc has no area", place)
                 } else {
-                    Shape::Disc { center, normal, radius, hole }
+                    scene::Shape::Disc { centre, normal: vector(normal), radius, hole }.into()
                 }
             }
             Keyword::Triangle => {
-                let mut corners = [[0.0; 3]; 3];
+                let mut corners = [Point3::ORIGIN; 3];
                 for (which, corner) in ["first", "second", "third"].iter().zip(&mut corners) {
                     self.need(&format!("a triangle needs three corners: the {which} is missing"))?;
-                    *corner = self.corner()?;
+                    *corner = point(self.corner()?);
                 }
-                Shape::Triangle(corners)
+                scene::Shape::Triangle(corners).into()
             }
             Keyword::SmoothTriangle => {
                 let mut corners = [[0.0; 3]; 3];
@@ -108,7 +110,7 @@ impl Parser<'_> {
                 if normals.iter().any(|&normal| length(normal) == 0.0) {
                     self.nothing("a normal of this triangle has no length", place)
                 } else {
-                    Shape::SmoothTriangle(Box::new((corners, normals)))
+                    scene::Shape::SmoothTriangle(Box::new((corners.map(point), normals.map(unit)))).into()
                 }
             }
             Keyword::Polygon => {
@@ -117,7 +119,7 @@ impl Parser<'_> {
                 if loops.is_empty() {
                     self.nothing("this polygon has no area", place)
                 } else {
-                    Shape::Polygon(Rc::new(loops), rule)
+                    scene::Shape::Polygon { loops: loops.into(), rule }.into()
                 }
             }
             Keyword::Mesh => self.mesh()?,
@@ -131,10 +133,9 @@ impl Parser<'_> {
                 if [squares, mixed, linear].iter().flatten().all(|v| *v == 0.0) {
                     self.nothing("the equation of this quadric has no variable in it", place)
                 } else {
-                    Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant]))
+                    scene::Shape::Quadric(Box::new([a, b, c, d, e, f, g, h, i, constant])).into()
                 }
             }
-            Keyword::Isosurface => self.isosurface(place)?,
             Keyword::Superellipsoid => self.superellipsoid()?,
             Keyword::Blob => self.blob(place)?,
             Keyword::JuliaFractal => self.julia_fractal()?,
@@ -144,8 +145,8 @@ impl Parser<'_> {
                 self.skip_comma()?;
                 match (major, self.size()?) {
                     (_, 0.0) => self.nothing("the minor radius of this torus is 0", place),
-                    (0.0, radius) => Shape::Sphere { center: [0.0; 3], radius },
-                    (major, minor) => Shape::Torus { major, minor },
+                    (0.0, radius) => scene::Shape::Sphere { centre: Point3::ORIGIN, radius }.into(),
+                    (major, minor) => scene::Shape::Torus { major, minor }.into(),
                 }
             }
             Keyword::Prism => self.prism(place)?,
@@ -184,7 +185,7 @@ impl Parser<'_> {
                 ));
             }
         }
-        Ok(Shape::Superellipsoid { e: terms[0], n: terms[1] })
+        Ok(scene::Shape::Superellipsoid { e: terms[0], n: terms[1] }.into())
     }
 
     /// A point and the comma behind it.
@@ -209,7 +210,8 @@ impl Parser<'_> {
         Ok(order as u32)
     }
 
-    /// `<A1, A2, ...>`: all coefficients of a polynomial, by falling powers of x, then of y, then of z.
+    /// `<A1, A2, ...>`: all coefficients of a polynomial, by falling powers of x, then of y, then
+    /// of z.
     fn coefficients(&mut self, order: u32, place: Place) -> Result<Shape> {
         let wanted = coefficient_count(order);
         let mut list = Vec::with_capacity(wanted);
@@ -233,7 +235,7 @@ impl Parser<'_> {
                 format!("a polynomial of order {order} has {wanted} coefficients, and here are {found}"),
             ));
         }
-        Ok(self.zero_set(order, &list, place))
+        Ok(self.zero_set(order, list, place))
     }
 
     /// `xyz(i, j, k): value, ...`: the coefficients that are not zero.
@@ -261,16 +263,16 @@ impl Parser<'_> {
             list[place_of(order, powers.map(|p| p as u32))] = self.float()?;
             self.skip_comma()?;
         }
-        Ok(self.zero_set(order, &list, place))
+        Ok(self.zero_set(order, list, place))
     }
 
     /// The surface where a polynomial with these coefficients is zero.
-    fn zero_set(&mut self, order: u32, list: &[f64], place: Place) -> Shape {
+    fn zero_set(&mut self, order: u32, coefficients: Vec<f64>, place: Place) -> Shape {
         // The constant is the last one.
-        if list.iter().rev().skip(1).all(|c| *c == 0.0) {
+        if coefficients.iter().rev().skip(1).all(|c| *c == 0.0) {
             return self.nothing("this polynomial has no variable in it", place);
         }
-        Shape::Polynomial(order, list.into())
+        scene::Shape::Polynomial { order, coefficients: coefficients.into() }.into()
     }
 
     /// A direction and the comma behind it.
@@ -285,15 +287,15 @@ impl Parser<'_> {
     }
 
     /// `n, points`: a loop ends where its first point comes again.
-    fn polygon(&mut self, place: Place) -> Result<Vec<Vec<[f64; 3]>>> {
+    fn polygon(&mut self, place: Place) -> Result<Vec<Vec<Point3>>> {
         let count = self.float()?;
         self.skip_comma()?;
         if !(3.0..1e9).contains(&count) {
             return Err(Error::invalid(place, "a polygon has at least three points"));
         }
-        let (mut loops, mut current) = (Vec::new(), Vec::<[f64; 3]>::new());
+        let (mut loops, mut current) = (Vec::new(), Vec::<Point3>::new());
         for n in 0..count as usize {
-            let point = self.corner()?;
+            let point = point(self.corner()?);
             self.check_memory(n * 48, place)?;
             if current.first() == Some(&point) {
                 loops.push(std::mem::take(&mut current));
@@ -315,10 +317,11 @@ impl Parser<'_> {
     }
 }
 
-/// Whether the first three corners of an outline that are not on one line go round the other way than all of it does. They tell which side is the front.
-fn starts_inward(points: &[[f64; 3]]) -> bool {
-    let from_first = |p: [f64; 3]| std::array::from_fn(|axis| p[axis] - points[0][axis]);
-    let turns = |a: [f64; 3], b: [f64; 3]| cross(from_first(a), from_first(b));
+/// Whether the first three corners of an outline that are not on one line go round the other way
+/// than all of it does. They tell which side is the front.
+fn starts_inward(points: &[Point3]) -> bool {
+    let from_first = |p: Point3| (p - points[0]).to_array();
+    let turns = |a: Point3, b: Point3| cross(from_first(a), from_first(b));
     let all = points.windows(2).fold([0.0; 3], |sum, two| {
         let turn = turns(two[0], two[1]);
         std::array::from_fn(|axis| sum[axis] + turn[axis])

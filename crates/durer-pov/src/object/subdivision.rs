@@ -1,6 +1,6 @@
 //! Subdivision surfaces, by words like those of `mesh2`.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
@@ -9,20 +9,20 @@ use crate::lexer::Mark;
 use crate::parser::{Item, Parser};
 use crate::source::read_bytes;
 use durer_math::Point3;
-use durer_scene::{Boundary, Scheme, SubdivisionData, UvInterpolation};
+use durer_scene::{self as scene, Boundary, Scheme, SubdivisionData, UvInterpolation};
 
 /// Bytes of a list of corners, besides them.
 const LIST: usize = size_of::<Vec<u32>>();
 
 /// How much memory a control mesh takes.
-pub(crate) fn bytes(data: &SubdivisionData) -> usize {
+pub(super) fn bytes(data: &SubdivisionData) -> usize {
     let lists = |faces: &[Vec<u32>]| faces.iter().map(|f| LIST + f.len() * 4).sum::<usize>();
     data.vertices.len() * 24 + data.uv.len() * 16 + lists(&data.faces) + lists(&data.uv_faces)
 }
 
 impl Parser<'_> {
-    /// `"file.obj"`, or lists as in `mesh2`, with `scheme`, `creases`, `corners`, `holes`, `boundary`
-    /// and `uv_interpolation` among them in any order.
+    /// `"file.obj"`, or lists as in `mesh2`, with `scheme`, `creases`, `corners`, `holes`,
+    /// `boundary` and `uv_interpolation` among them in any order.
     pub(super) fn subdivision(&mut self, place: Place) -> Result<Shape> {
         let mut data = SubdivisionData::default();
         let mut found = false;
@@ -124,11 +124,11 @@ impl Parser<'_> {
             return Err(Error::invalid(place, "this subdivision has no face_indices"));
         }
         match data.check() {
-            Err(nothing @ durer_scene::SubdivisionError::Nothing(_)) => {
+            Err(nothing @ scene::SubdivisionError::Nothing(_)) => {
                 Ok(self.nothing(&nothing.to_string(), place))
             }
             Err(why) => Err(Error::invalid(place, why.to_string())),
-            Ok(()) => Ok(Shape::Subdivision(Rc::new(data))),
+            Ok(()) => Ok(scene::Shape::Subdivision(Arc::new(data)).into()),
         }
     }
 

@@ -1,8 +1,8 @@
 //! `sweep { profile PROFILE, ... path PATH [size ...] [twist ...] [up ...] }`, durer's own.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
-use durer_scene::{Curve, PathSpline, PathSweep, Spline, StraightSweep, SweepData};
+use durer_scene::{self as scene, Curve, PathSpline, PathSweep, Spline, StraightSweep, SweepData};
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
@@ -53,7 +53,7 @@ impl Parser<'_> {
             let (path, sizes) = ([from, to].map(point), [start, end]);
             let sweep = StraightSweep { outlines, spline, path, sizes, up };
             sweep.straight_path().map_err(|why| Error::invalid(at, why.to_string()))?;
-            return Ok(Shape::Sweep(Rc::new(sweep)));
+            return Ok(scene::Shape::StraightSweep(Arc::new(sweep)).into());
         }
         let path = path.iter().zip(sizes).map(|(&[x, y, z], size)| [x, y, z, size]).collect();
         let outlines = outlines.iter().map(|points| match spline {
@@ -63,7 +63,7 @@ impl Parser<'_> {
         let data =
             SweepData { outlines: outlines.collect(), spline: kind, path, twist: twist.to_radians(), up };
         let sweep = PathSweep::new(data).map_err(|why| Error::invalid(at, why.to_string()))?;
-        Ok(Shape::PathSweep(sweep))
+        Ok(scene::Shape::PathSweep(sweep).into())
     }
 
     /// One or more closed curves, separated by commas. All are of the same spline.

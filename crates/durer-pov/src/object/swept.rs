@@ -1,15 +1,18 @@
 //! Shapes that are swept from outlines: points in a plane, then a sweep.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::Shape;
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::parser::Parser;
-use durer_scene::{Curve, FillRule, LatheSpline, Prism, Spline, Sweep, SweepSpline};
+use crate::scene_builder::point;
+use durer_math::Point3;
+use durer_scene::{self as scene, Curve, FillRule, LatheSpline, Prism, Spline, Sweep, SweepSpline};
 
 impl Parser<'_> {
-    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] [linear_sweep | conic_sweep] height, height, number of points, points`.
+    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline]
+    /// [linear_sweep | conic_sweep] height, height, number of points, points`.
     pub(super) fn prism(&mut self, place: Place) -> Result<Shape> {
         let (mut sweep, mut spline) = (Sweep::Linear, Spline::Linear);
         loop {
@@ -49,7 +52,8 @@ impl Parser<'_> {
         if from == to {
             return Ok(self.flat_prism(&outlines, sweep, from, place));
         }
-        Ok(Shape::Prism(Rc::new(Prism { outlines, spline, heights: [from, to], sweep })))
+        let prism = Prism { outlines, spline, heights: [from, to], sweep };
+        Ok(scene::Shape::Prism(Arc::new(prism)).into())
     }
 
     /// A prism of straight edges without height: a polygon.
@@ -61,14 +65,16 @@ impl Parser<'_> {
         if size == 0.0 {
             return self.nothing("this prism has neither volume nor area", place);
         }
-        let loops =
-            outlines.iter().map(|points| points.iter().map(|&[x, z]| [x * size, y, z * size]).collect());
-        Shape::Polygon(Rc::new(loops.collect()), FillRule::EvenOdd)
+        let loops = outlines
+            .iter()
+            .map(|points| points.iter().map(|&[x, z]| Point3::new(x * size, y, z * size)).collect());
+        scene::Shape::Polygon { loops: loops.collect(), rule: FillRule::EvenOdd }.into()
     }
 
     /// The points of closed curves, those before and behind each curve included.
     pub(super) fn curves(&mut self, of: &str, curve: Curve) -> Result<Vec<Vec<[f64; 2]>>> {
-        // The name, the least number of points, where the first point of the curve is, and how many follow its last.
+        // The name, the least number of points, where the first point of the curve is, and how many
+        // follow its last.
         let (spline, least, first, behind) = match curve {
             Curve::Quadratic => ("quadratic_spline", 5, 1, 0),
             Curve::Cubic => ("cubic_spline", 6, 1, 1),
@@ -108,7 +114,8 @@ impl Parser<'_> {
                 _ => last > first && current[last] == current[first],
             };
             if last >= behind && closes(last - behind) {
-                // A curve from a point to itself: three other points make an outline, except of Bezier pieces.
+                // A curve from a point to itself: three other points make an outline, except of
+                // Bezier pieces.
                 if current.len() < least as usize {
                     let (n, len) = (outlines.len() + 1, current.len());
                     let text =
@@ -133,7 +140,8 @@ impl Parser<'_> {
         Ok(outlines)
     }
 
-    /// `linear_spline | b_spline | cubic_spline number of spheres, centre, radius, ... [tolerance t]`.
+    /// `linear_spline | b_spline | cubic_spline number of spheres, centre, radius, ...
+    /// [tolerance t]`.
     pub(super) fn sphere_sweep(&mut self, place: Place) -> Result<Shape> {
         let (spline, name, least) = if self.take_word(Keyword::LinearSpline)? {
             (SweepSpline::Linear, "linear_spline", 2.0)
@@ -170,7 +178,7 @@ impl Parser<'_> {
         if spheres.iter().all(|sphere| sphere[3] == 0.0) {
             return Ok(self.nothing("all radii of this sphere_sweep are 0", place));
         }
-        Ok(Shape::SphereSweep(spline, spheres.into()))
+        Ok(scene::Shape::SphereSweep(spline, spheres.into()).into())
     }
 
     /// `number of points, <radius, height>, ...`.
@@ -197,10 +205,11 @@ impl Parser<'_> {
             }
             points.push([radius, height]);
         }
-        Ok(Shape::Sor(points.into()))
+        Ok(scene::Shape::Sor(points.into()).into())
     }
 
-    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] number of points, <radius, height>, ...`.
+    /// `[linear_spline | quadratic_spline | cubic_spline | bezier_spline] number of points,
+    /// <radius, height>, ...`.
     pub(super) fn lathe(&mut self, place: Place) -> Result<Shape> {
         let mut spline = LatheSpline::Linear;
         loop {
@@ -240,7 +249,7 @@ impl Parser<'_> {
         if spline.is_on_axis(&points) {
             return Ok(self.nothing("this lathe sweeps no surface: its profile lies on the axis", place));
         }
-        Ok(Shape::Lathe(spline, points.into()))
+        Ok(scene::Shape::Lathe(spline, points.into()).into())
     }
 
     /// `bottom radius, top radius`. One of them may be 0; then the other sphere is all.
@@ -250,23 +259,23 @@ impl Parser<'_> {
         Ok(match (bottom, self.size()?) {
             (0.0, 0.0) => self.nothing("both radii of this ovus are 0", place),
             (bottom, top) if bottom == 0.0 || top == 0.0 => {
-                Shape::Sphere { center: [0.0; 3], radius: bottom.max(top) }
+                scene::Shape::Sphere { centre: Point3::ORIGIN, radius: bottom.max(top) }.into()
             }
-            (bottom, top) => Shape::Ovus { bottom, top },
+            (bottom, top) => scene::Shape::Ovus { bottom, top }.into(),
         })
     }
 
     /// `base, radius, apex, radius, inner radius`.
     pub(super) fn lemon(&mut self, place: Place) -> Result<Shape> {
-        let base = self.corner()?;
+        let base = point(self.corner()?);
         let base_radius = self.end_radius()?;
-        let apex = self.corner()?;
+        let apex = point(self.corner()?);
         let apex_radius = self.end_radius()?;
         let inner_radius = self.radius("the lemon's inner radius")?;
         if base == apex {
             return Err(Error::invalid(place, "this lemon's ends are the same point"));
         }
-        Ok(Shape::Lemon { ends: [base, apex], radii: [base_radius, apex_radius], inner_radius })
+        Ok(scene::Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius }.into())
     }
 
     /// A radius that may be zero, and the comma behind it.

@@ -1,17 +1,14 @@
 //! Sheets over the unit square: `height_field` and durer's own `terrain`.
 
-use std::rc::Rc;
-
 use durer_formula::{Formula, Tape};
 use durer_math::{F8, Point3};
 use durer_render::PigmentColours;
-use durer_scene::{HeightField, MOST_SAMPLES, Settings, Terrain, TerrainData};
+use durer_scene::{self as scene, HeightField, MOST_SAMPLES, Settings, Terrain, TerrainData};
 
 use super::Shape;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
-use crate::limits;
 use crate::parser::Parser;
 use crate::pattern_function::CANNOT_BE_UNDONE;
 use crate::picture::{self, Fault, Format};
@@ -30,7 +27,6 @@ impl Parser<'_> {
         } else {
             self.height_picture(place)?
         };
-        limits::charge_for_good(field.bytes());
         let mut water_level = 0.0;
         loop {
             if self.take_word(Keyword::Smooth)? {
@@ -50,10 +46,11 @@ impl Parser<'_> {
         if field.range()[1] < water_level {
             return Ok(self.nothing("all of this height_field lies below its water level", place));
         }
-        Ok(Shape::HeightField(Rc::new(field.with_water_level(water_level))))
+        Ok(scene::Shape::HeightField(Box::new(field.with_water_level(water_level))).into())
     }
 
-    /// The field of a picture: its type, if that is not told by the ending of its name, and its name.
+    /// The field of a picture: its type, if that is not told by the ending of its name, and its
+    /// name.
     fn height_picture(&mut self, place: Place) -> Result<HeightField> {
         let mut format = None;
         if let Some(word) = self.peek_word()? {
@@ -160,7 +157,8 @@ impl Parser<'_> {
         Ok(count as usize)
     }
 
-    /// `levels L roughness H amplitude B seed S corners <a, b, c, d> water_level W smooth`, in any order.
+    /// `levels L roughness H amplitude B seed S corners <a, b, c, d> water_level W smooth`, in any
+    /// order.
     pub(super) fn terrain(&mut self, place: Place) -> Result<Shape> {
         let mut data = TerrainData { levels: 0, ..TerrainData::default() };
         let (mut water_level, mut is_smooth, mut has_levels) = (f64::NEG_INFINITY, false, false);
@@ -194,7 +192,7 @@ impl Parser<'_> {
             return Ok(self.nothing("all of this terrain lies below its water level", place));
         }
         let terrain = if is_smooth { terrain.smooth() } else { terrain };
-        Ok(Shape::Terrain(Rc::new(terrain.with_water_level(water_level))))
+        Ok(scene::Shape::Terrain(Box::new(terrain.with_water_level(water_level))).into())
     }
 
     /// A whole number from 0 to `most`.
@@ -238,7 +236,8 @@ fn bytes_of([columns, rows]: [usize; 2], each: usize) -> usize {
     columns * rows * (each + 3)
 }
 
-/// A function's values by rows, moved between 0 and 1, and how many had to be. The first row is at y = 0.
+/// A function's values by rows, moved between 0 and 1, and how many had to be. The first row is at
+/// y = 0.
 fn sampled(formula: &Formula, size: [usize; 2]) -> (Vec<f64>, usize) {
     let tape = Tape::new(formula);
     heights_of(size, |x, y| tape.values(&[x, F8::splat(y), F8::ZERO]))

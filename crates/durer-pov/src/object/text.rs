@@ -7,14 +7,14 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
-use durer_scene::{Curve, Prism, Spline, Sweep};
+use durer_scene::{self as scene, Curve, Prism, Spline, Sweep};
 use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
 use super::{Object, Shape};
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
-use crate::limits;
 use crate::parser::{Item, Parser};
 use crate::shipped;
 use crate::source::read_bytes;
@@ -226,14 +226,13 @@ impl Parser<'_> {
                 let points: usize = outlines.done.iter().map(Vec::len).sum();
                 self.check_memory(points * 16, place)?;
                 self.count_steps(points as u64, place)?;
-                limits::charge_for_good(points * 16);
                 let prism = Prism {
                     outlines: outlines.done,
                     spline: Spline::Curved(Curve::Bezier),
                     heights: [0.0, thickness],
                     sweep: Sweep::Linear,
                 };
-                let mut part = Object::new(Shape::Prism(Rc::new(prism)), place);
+                let mut part = Object::new(scene::Shape::Prism(Arc::new(prism)).into(), place);
                 part.place = UPRIGHT.then(&Matrix::translation(pen));
                 parts.push(Rc::new(part));
             }

@@ -243,7 +243,7 @@ impl Lowering {
             camera: Aabb::EMPTY,
         };
         shapes::build(object, false, place.affine(), target)?;
-        let part = part.ok_or(LowerErrorKind::Sheet(shapes::name(&object.shape)))?;
+        let part = part.ok_or(LowerErrorKind::Sheet(object.shape.name()))?;
         Ok(if inverse { work.csg.inverse(part) } else { part })
     }
 }

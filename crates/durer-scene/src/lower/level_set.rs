@@ -147,7 +147,7 @@ fn leaf(shape: &Shape, place: &Affine, inverse: bool) -> Result<LevelSet> {
             }
             solid.placed(place).map_err(shape_error)
         }
-        shape => return Err(LowerErrorKind::Deform(shapes::name(shape))),
+        shape => return Err(LowerErrorKind::Deform(shape.name())),
     };
     turned(made?, inverse)
 }

@@ -17,7 +17,7 @@ use super::build::{Target, To};
 use super::camera_media::Enclosure;
 use super::deformed_surface::{self, Made};
 use super::{LowerErrorKind, fold_transform, level_set, named_quadric};
-use crate::{Container, Mesh, Object, Operation, Shape, Spline, Sweep};
+use crate::{Container, Mesh, Object, Shape, Spline, Sweep};
 
 /// The result of lowering a shape.
 pub(super) enum Built {
@@ -546,7 +546,7 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
             let sector = SphericalSector::with_half_angle(centre, radius, axis, half_angle);
             Region::solid(*sector.map_err(shape_error)?.shape())
         }
-        shape => return Err(LowerErrorKind::Clip(name(shape))),
+        shape => return Err(LowerErrorKind::Clip(shape.name())),
     };
     if !clip.clips.is_empty() {
         return Err(LowerErrorKind::Clip("something that is clipped itself"));
@@ -554,52 +554,4 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
     let region = if clip.flags.inverse { region.inverse() } else { region };
     let place = clip.placement.affine().then(around)?;
     Ok(if place == Affine::IDENTITY { region } else { region.placed(place) })
-}
-
-pub(super) fn name(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Sphere { .. } => "a sphere",
-        Shape::Box { .. } => "a box",
-        Shape::Cylinder { .. } => "a cylinder",
-        Shape::Cone { .. } => "a cone",
-        Shape::Plane { .. } => "a plane",
-        Shape::Disc { .. } => "a disc",
-        Shape::Parallelogram { .. } => "a parallelogram",
-        Shape::Triangle(_) => "a triangle",
-        Shape::SmoothTriangle(_) => "a smooth triangle",
-        Shape::Polygon { .. } => "a polygon",
-        Shape::Mesh(_) => "a mesh",
-        Shape::Quadric(_) => "a quadric",
-        Shape::Polynomial { .. } => "a polynomial",
-        Shape::Torus { .. } => "a torus",
-        Shape::Cyclide { .. } => "a cyclide",
-        Shape::Prism(_) => "a prism",
-        Shape::StraightSweep(_) | Shape::PathSweep(_) => "a sweep",
-        Shape::SphereSweep(..) => "a sphere sweep",
-        Shape::Sor(_) => "a sor",
-        Shape::Lathe(..) => "a lathe",
-        Shape::Patch(_) => "a patch",
-        Shape::TriangularPatch(_) => "a triangular patch",
-        Shape::Nurbs(_) => "a nurbs surface",
-        Shape::Subdivision(_) => "a subdivision surface",
-        Shape::Parametric(_) => "a parametric",
-        Shape::Sewn(_) => "a sewn surface",
-        Shape::Ovus { .. } => "an ovus",
-        Shape::Lemon { .. } => "a lemon",
-        Shape::Named(_) => "a named quadric",
-        Shape::SphericalSector { .. } => "a spherical sector",
-        Shape::Isosurface(_) => "an isosurface",
-        Shape::Superellipsoid { .. } => "a superellipsoid",
-        Shape::Blob(_) => "a blob",
-        Shape::Julia(_) => "a Julia set",
-        Shape::Ifs(_) => "an ifs",
-        Shape::HeightField(_) => "a height field",
-        Shape::Terrain(_) => "a terrain",
-        Shape::Deform(_) => "a deformed solid",
-        Shape::Own(_) => "a surface of the program's own",
-        Shape::Union(_) => "a union",
-        Shape::Csg(Operation::Merge, _) => "a merge",
-        Shape::Csg(Operation::Intersection, _) => "an intersection",
-        Shape::Csg(Operation::Difference, _) => "a difference",
-    }
 }
