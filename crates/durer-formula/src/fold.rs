@@ -133,6 +133,7 @@ fn folded(op: &Op, constant: &impl Fn(NodeId) -> Option<Interval>) -> Option<Int
             let p = [constant(a)?, constant(b)?, constant(c)?].map(I8::splat);
             I8::noise(table, p.each_ref()).lane(0)
         }
+        Op::Nearest(which, [a, b, c]) => which.bounds([constant(a)?, constant(b)?, constant(c)?]),
         Op::Compare(c, a, b) => {
             let (a, b) = (constant(a)?, constant(b)?);
             let exact = a.lo == a.hi && b.lo == b.hi;

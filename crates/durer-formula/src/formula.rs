@@ -1,7 +1,7 @@
 //! A formula is a list of steps, each of which uses the results of earlier ones.
 
 use super::fold;
-use durer_math::noise::NoiseTable;
+use durer_math::noise::{Nearest, NoiseTable};
 use durer_math::{Comparison, Function, Interval};
 use std::collections::HashMap;
 
@@ -64,6 +64,8 @@ pub enum Op {
     Rem(NodeId, NodeId),
     /// Noise at a point of space: durer's own, or that of a table.
     Noise(Option<&'static NoiseTable>, [NodeId; 3]),
+    /// The distance from a point of space to the nearest of random points, or to the next.
+    Nearest(&'static Nearest, [NodeId; 3]),
     /// 1 or 0.
     Compare(Comparison, NodeId, NodeId),
     /// By the sign of the first: one of the three others, for below, at and above zero.
@@ -100,6 +102,7 @@ impl Op {
             Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
             Self::Rem(a, b) => Self::Rem(f(a), f(b)),
             Self::Noise(table, p) => Self::Noise(table, p.map(f)),
+            Self::Nearest(which, p) => Self::Nearest(which, p.map(f)),
             Self::Compare(c, a, b) => Self::Compare(c, f(a), f(b)),
             Self::Select(all) => Self::Select(all.map(f)),
             Self::Joined(all) => Self::Joined(all.map(f)),
@@ -133,7 +136,7 @@ impl Op {
                 f(a);
                 f(b);
             }
-            Self::Noise(_, p) | Self::Joined(p) => p.into_iter().for_each(f),
+            Self::Noise(_, p) | Self::Nearest(_, p) | Self::Joined(p) => p.into_iter().for_each(f),
             Self::Select(all) => all.into_iter().for_each(f),
         }
     }
@@ -189,6 +192,10 @@ impl Op {
             Self::Joined([a, b, c]) => (21, u64::from(a.0), u64::from(b.0), u64::from(c.0)),
             Self::MulWhole(a, b) => two(22, a, b),
             Self::Times(k, a) => (23, k.to_bits(), u64::from(a.0), 0),
+            Self::Nearest(which, [a, b, c]) => {
+                let which = core::ptr::from_ref(which).addr() as u64;
+                (24, u64::from(a.0) << 32 | u64::from(b.0), u64::from(c.0), which)
+            }
         }
     }
 }

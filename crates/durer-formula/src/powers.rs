@@ -8,7 +8,7 @@
 //! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is
 //! [`Powers::UNKNOWN`], and so is all that is made of it.
 
-use durer_math::noise::NoiseTable;
+use durer_math::noise::{Nearest, NoiseTable};
 use durer_math::{Comparison, Function, Interval, Joined, Number, U};
 use durer_roots::bernstein::FLOOR;
 
@@ -180,6 +180,9 @@ impl Number for Powers {
         Self::UNKNOWN
     }
     fn noise(_: Option<&NoiseTable>, _: [&Self; 3]) -> Self {
+        Self::UNKNOWN
+    }
+    fn nearest(_: Nearest, _: [&Self; 3]) -> Self {
         Self::UNKNOWN
     }
     fn compare(_: Comparison, _: &Self, _: &Self) -> Self {

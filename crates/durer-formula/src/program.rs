@@ -91,6 +91,7 @@ pub(super) fn run_with<T: Number>(
             Op::Atan2(a, b) => *value = T::atan2(at(a), at(b)),
             Op::Rem(a, b) => *value = T::rem(at(a), at(b)),
             Op::Noise(table, [a, b, c]) => *value = T::noise(table, [at(a), at(b), at(c)]),
+            Op::Nearest(which, [a, b, c]) => *value = T::nearest(*which, [at(a), at(b), at(c)]),
             Op::Compare(c, a, b) => *value = T::compare(c, at(a), at(b)),
             Op::Select([c, x, y, z]) => *value = T::select(at(c), at(x), at(y), at(z)),
             Op::Joined([c, x, y]) => *value = T::joined(at(c), at(x), at(y)),

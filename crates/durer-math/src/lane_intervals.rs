@@ -11,7 +11,7 @@
 
 use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
-use crate::noise::NoiseTable;
+use crate::noise::{Nearest, NoiseTable};
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, noise};
 
@@ -408,6 +408,11 @@ impl Number for I8 {
     }
 
     #[inline(always)]
+    fn nearest(which: Nearest, p: [&Self; 3]) -> Self {
+        which.bounds_in_lanes(p)
+    }
+
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         #[inline(always)]
         fn truth(x: &I8) -> (M8, M8) {
@@ -481,6 +486,11 @@ impl Sloped for I8 {
     #[inline(always)]
     fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
         noise::slopes(table, p)
+    }
+
+    #[inline(always)]
+    fn nearest_and_slopes(which: Nearest, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        which.slopes_in_lanes(p)
     }
 }
 

@@ -4,7 +4,7 @@
 //! Each function has the error of its kernel (`lane_waves.rs`, `lane_logs.rs`, `lane_angles.rs`),
 //! or is that of f64, lane by lane.
 
-use crate::noise::NoiseTable;
+use crate::noise::{Nearest, NoiseTable};
 use crate::number::{Comparison, Function, Number, Sloped};
 use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
 
@@ -138,6 +138,10 @@ impl Number for F8 {
         noise::values(table, p)
     }
     #[inline(always)]
+    fn nearest(which: Nearest, p: [&Self; 3]) -> Self {
+        which.values(p)
+    }
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         let zero = Self::ZERO;
         let yes = match c {
@@ -169,6 +173,10 @@ impl Sloped for F8 {
     #[inline(always)]
     fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
         noise::slants(table, p)
+    }
+    #[inline(always)]
+    fn nearest_and_slopes(which: Nearest, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        which.values_and_slopes(p)
     }
 }
 

@@ -5,7 +5,7 @@
 //! its values on boxes, for its slope along a ray. [`Number`] lists the operations of such
 //! formulas; every type with these operations can evaluate all of them.
 
-use crate::noise::NoiseTable;
+use crate::noise::{Nearest, NoiseTable};
 use crate::{Dual, F8, Interval, Joined, elementary, noise};
 
 /// The number types on which formulas are evaluated. Operations take references: the types may be
@@ -60,6 +60,8 @@ pub trait Number: Copy + Joined {
     }
     /// Noise at a point of space.
     fn noise(table: Option<&NoiseTable>, p: [&Self; 3]) -> Self;
+    /// The distance to the nearest of random points, or to the next.
+    fn nearest(which: Nearest, p: [&Self; 3]) -> Self;
     /// The result of a comparison, 1 or 0.
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self;
     /// One of three by the sign of `c`: below, at or above zero. If two of them are the same object
@@ -75,6 +77,9 @@ pub trait Number: Copy + Joined {
 pub trait Sloped: Number {
     /// Noise at a point of space, and its derivatives along the three axes.
     fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]);
+    /// The distance to the nearest of random points, or to the next, and its slopes along the three
+    /// axes.
+    fn nearest_and_slopes(which: Nearest, p: [&Self; 3]) -> (Self, [Self; 3]);
 }
 
 /// The functions of one number.
@@ -236,6 +241,10 @@ impl Number for f64 {
         noise::values(table, F8::splats(p.map(|x| *x)).each_ref()).0[0]
     }
     #[inline(always)]
+    fn nearest(which: Nearest, p: [&Self; 3]) -> Self {
+        which.value(p.map(|x| *x))
+    }
+    #[inline(always)]
     fn compare(c: Comparison, a: &Self, b: &Self) -> Self {
         if a.is_nan() || b.is_nan() {
             return Self::NAN;
@@ -269,6 +278,10 @@ impl Sloped for f64 {
     fn noise_and_slopes(table: Option<&NoiseTable>, p: [&Self; 3]) -> (Self, [Self; 3]) {
         let (v, d) = noise::slants(table, F8::splats(p.map(|x| *x)).each_ref());
         (v.0[0], d.map(|d| d.0[0]))
+    }
+    #[inline(always)]
+    fn nearest_and_slopes(which: Nearest, p: [&Self; 3]) -> (Self, [Self; 3]) {
+        which.value_and_slopes(p.map(|x| *x))
     }
 }
 
@@ -614,6 +627,12 @@ impl<T: Sloped, D: Slopes<T>> Number for Dual<T, D> {
     #[inline(always)]
     fn noise(table: Option<&NoiseTable>, [x, y, z]: [&Self; 3]) -> Self {
         let (v, [dx, dy, dz]) = T::noise_and_slopes(table, [&x.v, &y.v, &z.v]);
+        let d = D::sum(&D::scaled(&dx, &x.d), &D::scaled(&dy, &y.d));
+        Self { v, d: D::sum(&d, &D::scaled(&dz, &z.d)) }
+    }
+    #[inline(always)]
+    fn nearest(which: Nearest, [x, y, z]: [&Self; 3]) -> Self {
+        let (v, [dx, dy, dz]) = T::nearest_and_slopes(which, [&x.v, &y.v, &z.v]);
         let d = D::sum(&D::scaled(&dx, &x.d), &D::scaled(&dy, &y.d));
         Self { v, d: D::sum(&d, &D::scaled(&dz, &z.d)) }
     }

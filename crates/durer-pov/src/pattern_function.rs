@@ -14,7 +14,8 @@
 use std::sync::Arc;
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_scene::{Ramp, TextureSource};
+use durer_math::noise::Nearest;
+use durer_scene::{Crackle, Ramp, TextureSource};
 
 use crate::diagnostics::{self, Error, ErrorKind, Place};
 use crate::formulas;
@@ -141,7 +142,7 @@ impl Parser<'_> {
         let exact = if noise_pattern::lacks_generator(&pattern) { None } else { formula() };
         self.language.noise_is_used |= exact.as_ref().is_some_and(has_noise);
         match exact {
-            Some(formula) if !has_noise(&formula) => Ok(formula.into()),
+            Some(formula) if !is_made_of_chance(&formula) => Ok(formula.into()),
             exact => {
                 let source = TextureSource::Pattern {
                     placement: scene_builder::placement(&pattern.modifiers.place, place)?,
@@ -169,6 +170,11 @@ pub(crate) fn has_noise(formula: &Formula) -> bool {
     formula.ops().iter().any(|op| matches!(op, Op::Noise(..)))
 }
 
+/// Whether the formula depends on noise or random points: textures evaluate these faster.
+fn is_made_of_chance(formula: &Formula) -> bool {
+    formula.ops().iter().any(|op| matches!(op, Op::Noise(..) | Op::Nearest(..)))
+}
+
 /// The value of a pattern at a point in its own space; `None` if no formula is known.
 pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
     if !pattern.modifiers.warps.is_empty() {
@@ -187,15 +193,36 @@ pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> O
         },
         PatternKind::Hexagon => called(b, HEXAGON, own, &[])?,
         PatternKind::Brick { size: [x, y, z], mortar } => called(b, BRICK, own, &[x, y, z, mortar])?,
+        PatternKind::Ramp(ref ramp, _) => match **ramp {
+            Ramp::Crackle(crackle) => distances(b, crackle, own)?,
+            _ => return None,
+        },
         PatternKind::Square
         | PatternKind::Triangular
-        | PatternKind::Ramp(..)
         | PatternKind::GreyOf(_)
         | PatternKind::Inside(..)
         | PatternKind::Materials(_)
         | PatternKind::Average => return None,
     };
     changed(b, pattern, value)
+}
+
+/// The value of `crackle`: the sum of the distances to the nearest three random points, each times
+/// its part of the form, between 0 and 1.
+fn distances(b: &mut Builder, crackle: Crackle, own: [NodeId; 3]) -> Option<NodeId> {
+    // The noise of the nearest point jumps from one cell to the next.
+    if crackle.solid {
+        return None;
+    }
+    let mut sum = b.constant(0.0).ok()?;
+    for (rank, part) in crackle.form.to_array().into_iter().enumerate().filter(|(_, part)| *part != 0.0) {
+        let nearest = Nearest::shared(rank, crackle.metric, crackle.offset)?;
+        let distance = b.push(Op::Nearest(nearest, own)).ok()?;
+        let part = b.constant(part).ok()?;
+        let term = b.push(Op::Mul(part, distance)).ok()?;
+        sum = b.push(Op::Add(sum, term)).ok()?;
+    }
+    called(b, "min(max(x, 0), 1)", [sum; 3], &[])
 }
 
 /// The index into a list after frequency, phase and wave have changed `number`. The entry with this

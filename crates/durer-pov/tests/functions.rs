@@ -541,7 +541,8 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare V = <1, 2, 3>; #declare F = function(a) { a*V };", 54, "made of floats");
     says("#declare F = function(a) { sqrt(a) }; #declare A = F(-1);", 52, "undefined here");
     says("#declare F = function { internal(99) };", 25, "no internal function 99");
-    says("isosurface { function { pattern { crackle } } }", 14, "no bound");
+    says("isosurface { function { pattern { crackle solid on } } }", 14, "no bound");
+    says("isosurface { function { pattern { crackle metric 0.5 } } }", 14, "no bound");
     says(
         "#declare F = function { pattern { cells } }; isosurface { function { x - F(x, y, z) } }",
         59,
@@ -586,8 +587,8 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
     says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
     says(
-        "#declare F = function { pigment { crackle } }; isosurface { function { F(x, y, z).red } }",
-        61,
+        "#declare F = function { pigment { cells } }; isosurface { function { F(x, y, z).red } }",
+        59,
         "no bound",
     );
     says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");

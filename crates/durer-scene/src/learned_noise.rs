@@ -9,6 +9,7 @@
 //! `b`, `b + 4` and `b + 8`. The table is not part of durer: it is measured from an installed
 //! POV-Ray.
 
+use durer_math::noise::permutation::{PERIOD, permutation, wide_hash};
 use durer_math::noise::{self, NoiseTable};
 use durer_math::{F8, Point3, Vec3};
 
@@ -17,7 +18,6 @@ const TABLE: usize = 267;
 
 /// Cells are counted from here, modulo the length of the permutation.
 const FIRST_CELL: i64 = 10_000;
-pub(crate) const PERIOD: usize = 4096;
 
 /// POV-Ray's noise with its table.
 #[derive(Clone, PartialEq)]
@@ -42,7 +42,7 @@ impl LearnedNoise {
         if table.len() != TABLE {
             return None;
         }
-        let order = order();
+        let order = permutation();
         let once: &[u16; PERIOD] = order.first_chunk()?;
         let component = |shift: usize| {
             let points = core::array::from_fn(|hash| {
@@ -61,7 +61,7 @@ impl LearnedNoise {
 
     /// The hash of the lattice point `(x, 0, 0)`, by which a table is measured.
     pub fn hash_at(x: i64) -> usize {
-        let order = order();
+        let order = permutation();
         let [x, y, z] = [x, 0, 0].map(cell);
         hash(&order, x, y, z)
     }
@@ -92,25 +92,6 @@ fn hash(order: &[u16], x: usize, y: usize, z: usize) -> usize {
     wide_hash(order, x, y, z) & 0xff
 }
 
-/// The hash before all but its lowest eight bits are dropped: 0 to 4095.
-pub(crate) fn wide_hash(order: &[u16], x: usize, y: usize, z: usize) -> usize {
-    let one = usize::from(order[x]) ^ y;
-    let two = usize::from(order[one]) ^ z;
-    usize::from(order[two])
-}
-
-/// The permutation: numbers exchanged by a linear congruential generator.
-pub(crate) fn order() -> Box<[u16]> {
-    let mut order: Vec<u16> = (0..PERIOD as u16).collect();
-    let mut seed = 0_u32;
-    for i in (0..PERIOD).rev() {
-        seed = seed.wrapping_mul(1_812_433_253).wrapping_add(12_345);
-        order.swap(i, (seed >> 16 & 0x7fff) as usize % PERIOD);
-    }
-    order.extend_from_within(..);
-    order.into()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,7 +107,7 @@ mod tests {
 
     #[test]
     fn the_order_is_a_permutation() {
-        let order = order();
+        let order = permutation();
         let mut seen = order[..PERIOD].to_vec();
         seen.sort_unstable();
         assert!(seen.iter().enumerate().all(|(i, &n)| i == usize::from(n)));

@@ -20,7 +20,6 @@
 #![forbid(unsafe_code)]
 
 mod camera;
-mod cell_numbers;
 mod chart;
 mod colour;
 mod density_grid;
@@ -45,7 +44,6 @@ mod shape;
 mod texture;
 
 pub use crate::camera::{Camera, Distribution, Lens, MeshCamera, Projection};
-pub use crate::cell_numbers::CellNumbers;
 pub use crate::chart::{Chart, ChartKind, unfolded};
 pub use crate::colour::{Colour, Rgb};
 pub use crate::density_grid::{DensityGrid, GridBetween};
@@ -72,6 +70,7 @@ pub use crate::shape::{
     Prism, QuadricKind, Shape, Spline, StraightSweep, Sweep, TriangularPatch,
 };
 pub use crate::texture::{FieldWeights, Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
+pub use durer_math::noise::CellNumbers;
 pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};

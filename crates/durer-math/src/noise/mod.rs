@@ -26,10 +26,15 @@
 //! `2 * 4 u * 3/2 = 12 u` and the slope's own `u` to a derivative. That is within the two bounds.
 
 mod bounds;
+mod cell_numbers;
+mod nearest;
+pub mod permutation;
 mod table;
 #[cfg(test)]
 mod tests;
 
+pub use cell_numbers::CellNumbers;
+pub use nearest::Nearest;
 pub use table::NoiseTable;
 
 use crate::real::{Eight, Real, real};

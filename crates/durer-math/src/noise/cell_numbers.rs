@@ -11,7 +11,7 @@
 
 use std::sync::OnceLock;
 
-use crate::learned_noise::{PERIOD, order, wide_hash};
+use super::permutation::{PERIOD, permutation, wide_hash};
 
 /// The numbers of a cube: three in a row.
 const IN_A_CUBE: usize = 3;
@@ -35,7 +35,7 @@ impl CellNumbers {
     pub fn get() -> &'static Self {
         static NUMBERS: OnceLock<CellNumbers> = OnceLock::new();
         NUMBERS.get_or_init(|| Self {
-            order: order(),
+            order: permutation(),
             numbers: twister(PERIOD + IN_A_CUBE - 1)
                 .into_iter()
                 .map(|n| f64::from(n) / 4_294_967_296.0)
