@@ -225,9 +225,12 @@ impl Kind {
     }
 }
 
-/// The module of a test, in words; the test's own name if it has no module.
+/// The module that a test tests, in words; the test's own name if it has no module.
 fn module(test: &str) -> String {
-    let module = test.split("::tests").next().unwrap_or(test);
+    let module = match test.split_once("::tests") {
+        Some((module, _)) => module,
+        None => test.rsplit_once("_tests::").map_or(test, |(module, _)| module),
+    };
     module.replace("::", " ").replace('_', " ")
 }
 

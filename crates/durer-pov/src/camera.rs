@@ -178,12 +178,14 @@ impl Camera {
         self.direction = scaled(towards, long / distance);
         let side = cross(self.sky, self.direction);
         let side_length = length(side);
-        if side_length > 0.0 {
-            self.right = scaled(side, hand * wide / side_length);
-        }
+        // As in POV-Ray, a camera that looks along its sky keeps its right vector, a mirrored one
+        // the opposite one. It need not be perpendicular to the direction: then `up` is shorter.
+        let looks_along_sky = side_length == 0.0;
+        self.right =
+            if looks_along_sky { scaled(self.right, hand) } else { scaled(side, hand * wide / side_length) };
         let upward = cross(self.direction, self.right);
-        let upward_length = length(upward);
-        if upward_length == 0.0 {
+        let upward_length = if looks_along_sky { long * wide } else { length(upward) };
+        if length(upward) == 0.0 {
             return Err("the camera looks along its own right vector");
         }
         // For a mirrored camera the cross product points down.

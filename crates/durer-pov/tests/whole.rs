@@ -36,6 +36,20 @@ fn look_at_keeps_lengths_and_handedness() {
     assert!(close(side.direction, [-2.0, 0.0, 0.0]) && close(side.right, [0.0, 0.0, 1.33]));
 }
 
+/// Measured from POV-Ray's pictures.
+#[test]
+fn a_camera_that_looks_along_its_sky_keeps_its_right_vector_or_turns_it_round() {
+    let plain = camera("camera { location y*6 right x up y look_at 0 }");
+    assert!(close(plain.right, [1.0, 0.0, 0.0]) && close(plain.up, [0.0, 0.0, 1.0]));
+    let mirrored = camera("camera { location y*6 right x up z look_at 0 }");
+    assert!(close(mirrored.right, [-1.0, 0.0, 0.0]) && close(mirrored.up, [0.0, 0.0, 1.0]));
+    let from_below = camera("camera { location y*-6 right x up z look_at 0 }");
+    assert!(close(from_below.right, [-1.0, 0.0, 0.0]) && close(from_below.up, [0.0, 0.0, -1.0]));
+    let oblique = camera("camera { location y*6 right <1, 1, 0> up z look_at 0 }");
+    assert!(close(oblique.right, [-1.0, -1.0, 0.0]));
+    assert!(close(oblique.up, [0.0, 0.0, std::f64::consts::FRAC_1_SQRT_2]), "{oblique:?}");
+}
+
 #[test]
 fn an_orthographic_camera_shows_what_the_perspective_one_would_at_look_at() {
     let fitted = camera("camera { orthographic location -z*5 look_at 0 }");

@@ -9,12 +9,14 @@
 //!
 //! Decided as the [disc](crate::Disc) is, against two circles; both rims belong to the annulus.
 
+use crate::compose::clip::Algebraic;
 use crate::disc::RoundSheet;
 use crate::packet::FilterSource;
-use crate::planar::scaled_to_one;
+use crate::planar::{self, scaled_to_one};
 use crate::{Accelerate, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
-use durer_math::{Aabb, Point3, Vec3};
+use durer_math::{Aabb, Dyadic, Point3, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A round sheet with a round hole about the same centre.
 ///
@@ -119,6 +121,12 @@ impl Accelerate for Annulus {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::ring(self.centre(), self.normal(), self.hole, self.radius())
+    }
+}
+
+impl Algebraic for Annulus {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        planar::plane_along(&planar::exact3(self.normal()), self.centre(), ray)
     }
 }
 

@@ -12,6 +12,7 @@
 //! a line that only touches an edge or a corner meets the box in one grazing root; a line within a
 //! face enters and leaves through the other slabs, since the box is closed.
 
+use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::point::least_step;
@@ -21,7 +22,8 @@ use crate::{
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Isa, Normal3, Point3, RaySide, Ring, U, Vec3};
+use durer_math::{Aabb, Dyadic, Isa, Normal3, Point3, RaySide, Ring, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A solid box with faces across the axes. Face `2 i` is the one at the least coordinate of axis
 /// `i`, face `2 i + 1` the opposite one.
@@ -468,6 +470,13 @@ impl Accelerate for AxisBox {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::axis_box(self.min, self.max)
+    }
+}
+
+impl Algebraic for AxisBox {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        let corner = if face & 1 == 0 { self.min() } else { self.max() };
+        planar::plane_along(&planar::exact3(Self::normal(face).to_vec()), corner, ray)
     }
 }
 

@@ -11,6 +11,7 @@
 //! whether it meets the disc is the sign of `|n x (o x d)|^2 - r^2 (n . d)^2`: a polynomial,
 //! decided exactly; the rim belongs to the disc.
 
+use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::planar::{
     self, AlongRay, Crossing, Line, PlaneForm, Probe, Quick, cross, dot, exact3, scaled_to_one, unit,
@@ -19,7 +20,8 @@ use crate::{Accelerate, CentredRay, LocalRay, Need, PartId, RingRay, Root, Sink,
 use core::cmp::Ordering;
 use core::f64::consts::TAU;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
+use durer_math::{Aabb, Dyadic, Point3, Ring, U, Vec3, elementary};
+use durer_roots::quadratic::Quadratic;
 
 /// A round sheet about `centre`, in the plane across `normal`.
 ///
@@ -105,6 +107,12 @@ impl Accelerate for Disc {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::ring(self.centre(), self.normal(), 0.0, self.radius())
+    }
+}
+
+impl Algebraic for Disc {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        planar::plane_along(&exact3(self.normal()), self.centre(), ray)
     }
 }
 

@@ -13,6 +13,7 @@ mod fans;
 
 use self::contact::{Contact, Report};
 use self::fans::LazyFans;
+use crate::compose::clip::Algebraic;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::packet::FilterSource;
@@ -26,7 +27,8 @@ use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Isa, Normal3, Point3, Vec3};
+use durer_math::{Aabb, Dyadic, Isa, Normal3, Point3, Vec3};
+use durer_roots::quadratic::{self, Quadratic, exact_sign, sign_at_root};
 
 /// The data of a mesh: lists of numbers, and indices into them.
 ///
@@ -473,6 +475,23 @@ impl Accelerate for Mesh {
         if let Some(root) = self.face_root(part.0, ray, sink.range()) {
             let _ = sink.push(root);
         }
+    }
+}
+
+impl Algebraic for Mesh {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        planar::plane_through_along(self.facet(face), ray)
+    }
+
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let p = self.polynomial(root.face, ray)?;
+        // A grazing root does not tell it; a face that is touched edge-on has no crossing.
+        let crossing = match exact_sign(&p.b) {
+            Ordering::Greater => quadratic::Crossing::Out,
+            Ordering::Less => quadratic::Crossing::In,
+            Ordering::Equal => return None,
+        };
+        Some(sign_at_root(&p, crossing, q))
     }
 }
 

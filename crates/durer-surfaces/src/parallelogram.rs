@@ -11,6 +11,7 @@
 //! `b = q . (d x u) / (n . d)`; whether they lie in `[0, 1]` is the sign of four polynomials,
 //! decided exactly. The sheet is closed: its edges belong to it.
 
+use crate::compose::clip::Algebraic;
 use crate::edges::EdgeFilter;
 use crate::facet;
 use crate::packet::FilterSource;
@@ -18,7 +19,8 @@ use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, Ratios, cross, dot, 
 use crate::{Accelerate, CentredRay, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::scale2;
-use durer_math::{Aabb, EFloat, Point3, Ring, U, Vec3};
+use durer_math::{Aabb, Dyadic, EFloat, Point3, Ring, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// The sheet `corner + a u + b v` with `a` and `b` in `[0, 1]`. A root's tag is `(a, b)`, and so
 /// are the texture coordinates.
@@ -260,6 +262,13 @@ impl Accelerate for Parallelogram {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::parallelogram(self.corner, self.u, self.v)
+    }
+}
+
+impl Algebraic for Parallelogram {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        let [u, v] = self.edges().map(planar::exact3);
+        planar::plane_along(&cross(&u, &v), self.corner(), ray)
     }
 }
 

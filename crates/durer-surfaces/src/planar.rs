@@ -25,6 +25,7 @@ use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{add_up, div_down, div_up, sub_down};
 use durer_math::{Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A bracket that is wider than 32 ulp of `max(|t|, size / |d|)` is computed again in
 /// double-double; here relative to `size / |d|`, with the smallest value of the ulp.
@@ -695,6 +696,19 @@ impl ThreePoints {
             cross(&seen_from(b, a, self.scale), &seen_from(c, a, self.scale)),
         )
     }
+}
+
+/// The polynomial `n·(x - p)` along a ray, exactly; `None` if the ray is not exactly known.
+pub(crate) fn plane_along(normal: &[Dyadic; 3], p: Point3, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+    let ray = ray.in_ring_from::<Dyadic>(p, 0)?;
+    let slope = dot(normal, &ray.d);
+    Some(Quadratic { a: Dyadic::exact(0.0), b: Ring::scale2(slope, -1), c: dot(normal, &ray.o) })
+}
+
+/// The same for the plane through three points.
+pub(crate) fn plane_through_along(points: [Point3; 3], ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+    let centre = points[0];
+    plane_along(&ThreePoints { points, centre, scale: 0 }.normal().1, centre, ray)
 }
 
 impl PlaneForm for ThreePoints {

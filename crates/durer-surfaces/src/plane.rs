@@ -11,6 +11,7 @@
 //! Where `|n|` is irrational the plane has no rational point, yet every decision is rational:
 //! `n . p < h |n|` is a matter of signs and of `(n . p)^2 < h^2 n . n`.
 
+use crate::compose::clip::Algebraic;
 use crate::packet::FilterSource;
 use crate::planar::{self, PlaneForm, PointLine, Probe, Quick, dot, exact3, scaled_to_one, unit};
 use crate::point::least_step;
@@ -20,6 +21,7 @@ use crate::{
 };
 use core::cmp::Ordering;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Normal3, Point3, RaySide, Ring, Shaft, U, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// A plane, which is also the boundary of the half-space behind it.
 ///
@@ -321,6 +323,22 @@ impl Accelerate for Plane {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::half_space(Point3::ORIGIN, self.normal, self.offset)
+    }
+}
+
+impl Algebraic for Plane {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        let (n, h) = (exact3::<Dyadic>(self.normal()), self.distance());
+        if h == 0.0 {
+            return planar::plane_along(&n, Point3::ORIGIN, ray);
+        }
+        let ray = ray.in_ring::<Dyadic>()?;
+        let (at, slope) = (dot(&n, &ray.o), dot(&n, &ray.d));
+        let far = Ring::square(Dyadic::exact(h) * ray.w) * dot(&n, &n);
+        let (a, b, c) = (Ring::square(slope.clone()), at.clone() * slope, Ring::square(at) - far);
+        // Between the two planes it is negative; behind this one, if it is the first along the
+        // normal, positive.
+        Some(if h > 0.0 { Quadratic { a, b, c } } else { Quadratic { a: -a, b: -b, c: -c } })
     }
 }
 

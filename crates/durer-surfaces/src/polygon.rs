@@ -21,6 +21,7 @@
 //! to a neighbour), the crossing is the one with the plane, and it must lie in the bounding box: a
 //! ray that skims the plane could otherwise pass the outline far from its crossing with the plane.
 
+use crate::compose::clip::Algebraic;
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
 use crate::packet::FilterSource;
@@ -28,7 +29,8 @@ use crate::planar::{self, AlongRay, Line, PlaneForm, Probe, ThreePoints};
 use crate::{Accelerate, LocalRay, Need, PartId, RingRay, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Isa, Point3, Ring, Vec3};
+use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Vec3};
+use durer_roots::quadratic::Quadratic;
 
 /// The winding numbers that count as inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -387,6 +389,12 @@ impl Accelerate for Polygon {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::polygon(self.plane, self.bounds, self.outlines(), self.rule, self.margin)
+    }
+}
+
+impl Algebraic for Polygon {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        planar::plane_through_along(self.spanning(), ray)
     }
 }
 

@@ -9,13 +9,15 @@
 //! The rule of `edges.rs` decides which edges belong to the triangle: for each ray, each edge
 //! belongs to exactly one of its two sides.
 
+use crate::compose::clip::Algebraic;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::packet::FilterSource;
 use crate::planar::{self, Probe};
 use crate::swift::{self, Swift};
 use crate::{Accelerate, LocalRay, Need, PartId, Root, Sink, Surface, SurfacePoint};
-use durer_math::{Aabb, Normal3, Point3};
+use durer_math::{Aabb, Dyadic, Normal3, Point3};
+use durer_roots::quadratic::Quadratic;
 
 /// A triangle, by its vertices. A root's tag is `(b1, b2)`.
 ///
@@ -148,6 +150,12 @@ impl Accelerate for Triangle {
             Some(normals) => flat.with_normals(self.vertices, normals.map(Normal3::to_vec)),
             None => flat,
         }
+    }
+}
+
+impl Algebraic for Triangle {
+    fn polynomial(&self, _face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        planar::plane_through_along(self.vertices(), ray)
     }
 }
 

@@ -12,7 +12,8 @@
 
 use super::cell_numbers::CellNumbers;
 use crate::lanes::set_bits;
-use crate::{F8, I8, Interval};
+use crate::rounding::sub_down;
+use crate::{F8, I8, Interval, Isa, U};
 use arrayvec::ArrayVec;
 use std::sync::{Mutex, PoisonError};
 
@@ -32,6 +33,10 @@ const WIDEST: f64 = 2.0;
 
 /// From here on unit cubes have no exact place.
 const FARTHEST: f64 = (1_u64 << 50) as f64;
+
+/// Cubes that matter are at most so many steps from the middle one: no distance of
+/// [`Nearest::everywhere`] is above 3.5, and half of the widest box is 1.
+const SHELLS: usize = 5;
 
 /// As many random points are compared. Around a box of width 2, the balls of all distances that
 /// matter meet fewer cubes.
@@ -65,6 +70,7 @@ impl Nearest {
     }
 
     /// `|x|^e`.
+    #[inline(always)]
     fn power(self, x: Interval) -> Interval {
         match self.exponent {
             1.0 => x.abs(),
@@ -74,6 +80,7 @@ impl Nearest {
     }
 
     /// The distance with this sum of powers.
+    #[inline(always)]
     fn distance(self, sum: Interval) -> Interval {
         let sum = sum + self.power(self.offset.into());
         match self.exponent {
@@ -93,6 +100,7 @@ impl Nearest {
 
     /// Shows the random points that may have this rank for a point of the box to `f`, and returns
     /// the bounds of the sum of this rank. `None` if the box is too wide or too far away.
+    #[inline(always)]
     fn search(self, p: [Interval; 3], mut f: impl FnMut(Site)) -> Option<Interval> {
         let is_near = |x: &Interval| x.width() <= WIDEST && x.magnitude() < FARTHEST;
         if !p.iter().all(is_near) {
@@ -102,34 +110,46 @@ impl Nearest {
         let middle = p.map(|x| x.mid().floor());
         // The three least lower and upper bounds, ascending.
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::INFINITY; 3]);
-        for shell in 0_i32.. {
+        // For each axis and step, the least power of the distance from the box to the cube.
+        let mut gaps = [[0.0; 2 * SHELLS + 1]; 3];
+        for shell in 0..=SHELLS {
+            let mut nearest = f64::INFINITY;
+            for axis in 0..3 {
+                for step in [SHELLS - shell, SHELLS + shell] {
+                    let cube = middle[axis] + (step as f64 - SHELLS as f64);
+                    let gap = sub_down(cube, p[axis].hi).max(sub_down(p[axis].lo, cube + 1.0)).max(0.0);
+                    gaps[axis][step] = self.power(gap.into()).lo;
+                    nearest = nearest.min(gaps[axis][step]);
+                }
+            }
             // Each cube of the shell is at least this far away along one axis.
-            let far = f64::from(shell);
-            let gap = (0..3).fold(f64::INFINITY, |gap, axis| {
-                let above = Interval::from(middle[axis] + far) - p[axis].hi.into();
-                let below = Interval::from(p[axis].lo) - (middle[axis] - far + 1.0).into();
-                gap.min(above.lo).min(below.lo)
-            });
-            if gap > 0.0 && self.power(gap.into()).lo > high[self.rank] {
+            if nearest > high[self.rank] {
                 break;
             }
-            for step in shell_steps(shell) {
-                let cube: [f64; 3] = core::array::from_fn(|axis| middle[axis] + f64::from(step[axis]));
-                let sum = |from: [Interval; 3]| {
-                    let [x, y, z] = from.map(|x| self.power(x));
-                    x + y + z
-                };
-                let all = |axis: usize| p[axis] - Interval { lo: cube[axis], hi: cube[axis] + 1.0 };
-                if sum([all(0), all(1), all(2)]).lo > high[self.rank] {
-                    continue;
+            let range = SHELLS - shell..=SHELLS + shell;
+            for x in range.clone() {
+                for y in range.clone() {
+                    let is_on_shell = |step: usize| step == *range.start() || step == *range.end();
+                    let is_side = is_on_shell(x) || is_on_shell(y);
+                    for z in range.clone().filter(|&z| is_side || is_on_shell(z)) {
+                        // Two roundings of a sum of numbers that are not negative.
+                        let least = (gaps[0][x] + gaps[1][y] + gaps[2][z]) * (1.0 - 4.0 * U);
+                        if least > high[self.rank] {
+                            continue;
+                        }
+                        let steps = [x, y, z];
+                        let cube: [f64; 3] =
+                            core::array::from_fn(|axis| middle[axis] + (steps[axis] as f64 - SHELLS as f64));
+                        let within = numbers.of(cube);
+                        let from: [Interval; 3] = core::array::from_fn(|axis| {
+                            p[axis] - cube[axis].into() - Interval::from(within[axis])
+                        });
+                        let sum = self.power(from[0]) + self.power(from[1]) + self.power(from[2]);
+                        keep_least(&mut low, sum.lo);
+                        keep_least(&mut high, sum.hi);
+                        f(Site { sum, from });
+                    }
                 }
-                let within = numbers.of(cube);
-                let from =
-                    core::array::from_fn(|axis| p[axis] - cube[axis].into() - Interval::from(within[axis]));
-                let sum = sum(from);
-                keep_least(&mut low, sum.lo);
-                keep_least(&mut high, sum.hi);
-                f(Site { sum, from });
             }
         }
         Some(Interval { lo: low[self.rank], hi: high[self.rank] })
@@ -137,15 +157,38 @@ impl Nearest {
 
     /// The distances from the points of a box.
     pub fn bounds(self, p: [Interval; 3]) -> Interval {
-        self.search(p, |_| {}).map_or_else(|| self.everywhere(), |sum| self.distance(sum))
+        Isa::detect().run(
+            #[inline(always)]
+            || match self.search(
+                p,
+                #[inline(always)]
+                |_| {},
+            ) {
+                Some(sum) => self.distance(sum),
+                None => self.everywhere(),
+            },
+        )
     }
 
     /// The distances from the points of a box, and their slopes along the axes.
     pub fn slopes(self, p: [Interval; 3]) -> (Interval, [Interval; 3]) {
+        Isa::detect().run(
+            #[inline(always)]
+            || self.slopes_here(p),
+        )
+    }
+
+    #[inline(always)]
+    fn slopes_here(self, p: [Interval; 3]) -> (Interval, [Interval; 3]) {
         let unknown = [Interval { lo: -1.0, hi: 1.0 }; 3];
         let mut sites = ArrayVec::<Site, MOST>::new();
         let mut is_complete = true;
-        let Some(sum) = self.search(p, |site| is_complete &= sites.try_push(site).is_ok()) else {
+        let found = self.search(
+            p,
+            #[inline(always)]
+            |site| is_complete &= sites.try_push(site).is_ok(),
+        );
+        let Some(sum) = found else {
             return (self.everywhere(), unknown);
         };
         let distance = self.distance(sum);
@@ -165,6 +208,7 @@ impl Nearest {
     }
 
     /// The slope of a distance along an axis: the sign of `x` times `(|x| / distance)^(e - 1)`.
+    #[inline(always)]
     fn slope(self, x: Interval, distance: Interval) -> Interval {
         let unit = Interval { lo: 0.0, hi: 1.0 };
         let size = match self.exponent {
@@ -249,14 +293,6 @@ fn keep_least(least: &mut [f64; 3], x: f64) {
     }
 }
 
-/// The steps to the cubes of a shell: the greatest of the three is `shell` in magnitude.
-fn shell_steps(shell: i32) -> impl Iterator<Item = [i32; 3]> {
-    let all = move || -shell..=shell;
-    all()
-        .flat_map(move |x| all().flat_map(move |y| all().map(move |z| [x, y, z])))
-        .filter(move |step| step.iter().any(|x| x.abs() == shell))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,6 +308,13 @@ mod tests {
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 11) as f64 / (1_u64 << 53) as f64
         }
+    }
+
+    /// The steps to the cubes of a shell: the greatest of the three is `shell` in magnitude.
+    fn shell_steps(shell: i32) -> impl Iterator<Item = [i32; 3]> {
+        let all = move || -shell..=shell;
+        let cube = all().flat_map(move |x| all().flat_map(move |y| all().map(move |z| [x, y, z])));
+        cube.filter(move |step| step.iter().any(|x| x.abs() == shell))
     }
 
     /// The sums of the squares for all random points of cubes up to three away, exactly, ascending.

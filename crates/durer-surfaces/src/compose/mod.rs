@@ -4,5 +4,7 @@ pub mod affine;
 pub mod clip;
 pub mod complement;
 pub mod dynamic;
-pub(crate) mod flat;
 pub mod region;
+
+#[cfg(test)]
+mod flat_tests;

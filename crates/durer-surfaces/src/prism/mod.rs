@@ -24,6 +24,7 @@ mod straight_path;
 
 pub use straight_path::{StraightPath, StraightPathError};
 
+use crate::compose::clip::Algebraic;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::mesh::{Sorted, may_hold};
@@ -35,7 +36,8 @@ use crate::{
 };
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
-use durer_math::{Aabb, Point3, Ring, U, Vec3};
+use durer_math::{Aabb, Dyadic, Point3, Ring, U, Vec3};
+use durer_roots::quadratic::{self, Quadratic, exact_sign, sign_at_root};
 use outline::Point;
 
 /// A solid between two planes across y, within outlines that are swept from one to the other;
@@ -579,6 +581,15 @@ impl Accelerate for Prism {
             None => {}
         }
         let _ = roots.pour(sink);
+    }
+}
+
+impl Algebraic for Prism {
+    fn sign_at_root(&self, ray: &LocalRay<'_>, root: &Root, q: &Quadratic<Dyadic>) -> Option<Ordering> {
+        let p = planar::plane_through_along(self.plane_of(root)?, ray)?;
+        let crossing =
+            if exact_sign(&p.b).is_gt() { quadratic::Crossing::Out } else { quadratic::Crossing::In };
+        Some(sign_at_root(&p, crossing, q))
     }
 }
 

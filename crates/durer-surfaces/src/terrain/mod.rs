@@ -38,7 +38,6 @@ pub use self::heights::{Block, Heights};
 pub use self::samples::{HeightField, HeightFieldError, MOST_SAMPLES, Samples};
 
 use self::walk::{Entry, Line, Queue, Stack};
-use crate::compose::flat;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::planar::{self, AlongRay, Crossing, Line as _, PlaneForm, Probe, ThreePoints};
@@ -429,6 +428,6 @@ impl<H: Heights> Accelerate for Sheet<H> {
 
 impl<H: Heights + 'static> Algebraic for Sheet<H> {
     fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        flat::through(self.plane_of(face)?, ray)
+        planar::plane_through_along(self.plane_of(face)?, ray)
     }
 }
