@@ -4,7 +4,7 @@
 //! Best is a scene with the same surfaces in other words: if POV-Ray draws these as durer draws the
 //! scene itself, POV-Ray contradicts itself, and no fault of durer is hidden.
 
-use super::scene::{Node, Scene};
+use super::tree::{Node, Scene};
 
 /// An entry of docs/differences.md about surfaces that POV-Ray draws right in other words.
 pub(super) struct Reworded {
@@ -227,13 +227,13 @@ fn without_second_ceiling(scene: &Scene) -> Option<Scene> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene;
+    use super::super::solids;
     use super::*;
 
     #[test]
     fn each_known_difference_occurs_and_is_removed() {
         for known in &ALL {
-            let scenes = (0..400).map(|n| scene::scene(9, n));
+            let scenes = (0..400).map(|n| solids::scene(9, n));
             let found = scenes.filter(|s| (known.without)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn each_surface_in_other_words_occurs() {
         for known in &REWORDED {
-            let scenes = (0..400).map(|n| scene::scene(9, n));
+            let scenes = (0..400).map(|n| solids::scene(9, n));
             let found = scenes.filter(|s| (known.reworded)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }
