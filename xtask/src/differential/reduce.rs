@@ -1,6 +1,6 @@
 //! Reduction of scenes: everything is removed that can go while the two programs still differ.
 
-use super::tree::{Node, Scene};
+use super::tree::{NEEDED, Node, Scene};
 
 /// All scenes that are one step smaller, those with the most removed first.
 pub(super) fn smaller(scene: &Scene) -> Vec<Scene> {
@@ -61,7 +61,7 @@ fn cut(node: &Node) -> Vec<Node> {
     let mut all = Vec::new();
     for (word, plain) in [("pigment {", "pigment { rgb 0.6"), ("finish {", "finish {")] {
         if node.open.starts_with(word) && node.size() > 1 {
-            all.push(Node::block(plain, Vec::new(), 0));
+            all.push(Node::block(plain, Vec::new(), node.least));
         }
     }
     // A declaration keeps its name.
@@ -98,9 +98,11 @@ fn cut(node: &Node) -> Vec<Node> {
     // The step of a loop stays, or the loop would not end.
     let said = if node.close == "#end" { 0 } else { node.said.len() };
     for at in 0..said {
-        let mut less = node.clone();
-        less.said.remove(at);
-        all.push(less);
+        if node.said[at].least != NEEDED {
+            let mut less = node.clone();
+            less.said.remove(at);
+            all.push(less);
+        }
         for smaller in cut(&node.said[at]) {
             let mut less = node.clone();
             less.said[at] = smaller;

@@ -13,9 +13,13 @@ pub(super) struct Node {
     pub(super) said: Vec<Node>,
     /// `}`, `]` or `#end`; empty for plain text.
     pub(super) close: &'static str,
-    /// The least number of parts with which the node is valid.
+    /// The least number of parts with which the node is valid. `NEEDED` for a modifier without parts
+    /// that stays where it is.
     pub(super) least: usize,
 }
+
+/// The mark of a modifier that cannot be removed, such as an item of a list.
+pub(super) const NEEDED: usize = usize::MAX;
 
 impl Node {
     pub(super) fn text(text: impl Into<String>) -> Self {

@@ -1,7 +1,7 @@
 //! Pigments and textures: lists, maps, layers.
 
 use super::Maker;
-use crate::differential::tree::Node;
+use crate::differential::tree::{NEEDED, Node};
 
 /// The words of an item and what follows them.
 pub(super) type Body = (String, Vec<Node>);
@@ -64,6 +64,7 @@ impl Maker {
 
     /// A pattern with a list of items: its words and what follows them.
     pub(super) fn list(&mut self, mut item: impl FnMut(&mut Self) -> Node) -> Body {
+        let mut item = |m: &mut Self| Node { least: NEEDED, ..item(m) };
         let (words, count) = match self.r.below(7) {
             0 => {
                 let mut size = format!("brick_size <{}, 0.6, 0.8>", self.odd(0.6, 1.5));
