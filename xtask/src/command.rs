@@ -42,6 +42,8 @@ pub(crate) fn step(title: &str, command: &mut Command) -> Outcome {
 #[derive(Debug)]
 pub(crate) struct Durer {
     program: PathBuf,
+    /// The folder for a user's data, if it is not that of the user.
+    data: Option<PathBuf>,
 }
 
 /// The settings of a picture.
@@ -73,7 +75,32 @@ impl Durer {
 
     fn made_by(title: &str, arguments: &[&str]) -> Outcome<Self> {
         let is_durer = |path: &Path| path.file_stem().is_some_and(|name| name == "durer");
-        Ok(Self { program: built(title, arguments, is_durer)? })
+        Ok(Self::at(built(title, arguments, is_durer)?))
+    }
+
+    /// The command that is this program.
+    pub(crate) fn at(program: PathBuf) -> Self {
+        Self { program, data: None }
+    }
+
+    /// Measures the noise of POV-Ray, which must be installed, and uses it from then on. It is kept in
+    /// this folder.
+    pub(crate) fn with_learned_noise(mut self, folder: &Path) -> Outcome<Self> {
+        self.data = Some(folder.to_path_buf());
+        let output = self.command().arg("learn-noise").output();
+        let output = output.map_err(|e| format!("{}: {e}", self.program.display()))?;
+        if output.status.success() {
+            return Ok(self);
+        }
+        Err(format!("durer learn-noise: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr)))
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(&self.program);
+        if let Some(folder) = &self.data {
+            command.env("XDG_DATA_HOME", folder);
+        }
+        command
     }
 
     /// The path of the program.
@@ -83,7 +110,7 @@ impl Durer {
 
     /// Renders `scene` into `picture`. The error contains the output of the command.
     pub(crate) fn render(&self, scene: &Path, picture: &Path, shot: Shot<'_>) -> Outcome {
-        let mut command = Command::new(&self.program);
+        let mut command = self.command();
         command.arg("render").arg(scene).arg("-o").arg(picture);
         command.args(["--width", &shot.width.to_string(), "--height", &shot.height.to_string()]);
         command.args(["--aa", shot.aa, "--no-progress"]);

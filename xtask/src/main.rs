@@ -42,9 +42,11 @@ usage: cargo xtask NAME
   test                             formatting, clippy, docs, all tests and doc-tests, every scene, the Python package
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
-  differential [--scenes N] [--seed S] [--first K] [--whole]
-                                   renders N random scenes (100) of seed S (1) from the K-th (0) on with durer and with POV-Ray;
-                                   what differs is cut back, unless --whole, and left in target/differential
+  differential [--looks] [--scenes N] [--seed S] [--first K] [--whole] [--threads N] [--durer PROGRAM]
+                                   renders N random scenes (100) of seed S (1) from the K-th (0) on with durer and with POV-Ray:
+                                   solids, or with --looks textures, patterns, cameras, lights, atmosphere and the words of the
+                                   language; what differs is cut back, unless --whole, and left in target/differential.
+                                   --durer takes a program that is there in place of building one
   gallery [SCENE]..                renders scenes/ into docs/gallery and writes docs/gallery.md
   examples [SCENE]..               compares the scenes that come with POV-Ray and writes docs/examples.md
   bench [--rounds N] HARNESS MESH.tri..

@@ -25,7 +25,8 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             |part| Ok(normal(part, at)?.unwrap_or_else(level)),
             |_, _, _| Err(blend_of_patterns(at)),
         )?)),
-        (None, Some(push)) if own.slopes.is_none() => {
+        // A slope map has no effect on them (a fact of the language).
+        (None, Some(push)) => {
             // Facets have an amount of their own.
             let amount = if matches!(push, scene::Push::Facets(_)) { 1.0 } else { own.amount };
             scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount }

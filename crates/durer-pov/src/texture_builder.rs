@@ -220,9 +220,9 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         PatternKind::Gradient(direction) => return Ok(scene::Ramp::Gradient(vector(*direction))),
         PatternKind::Ramp(ramp, _) => {
             let mut ramp = (**ramp).clone();
-            // Turbulence also shifts spirals as a whole (a fact of the language).
-            if let scene::Ramp::Spiral { shift, .. } = &mut ramp {
-                *shift = own.amount[0];
+            // Turbulence moves the points of a spiral, and shifts it too (a fact of the language).
+            if let scene::Ramp::Spiral { turbulence, .. } = &mut ramp {
+                *turbulence = stirred();
             }
             return Ok(ramp);
         }

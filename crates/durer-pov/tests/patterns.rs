@@ -49,6 +49,25 @@ fn marble_and_wood_stir_themselves() {
 }
 
 #[test]
+fn turbulence_moves_and_shifts_spirals() {
+    let pigment = pigment("spiral1 2 turbulence 0.3");
+    let PigmentBody::Colours(pattern) = &pigment.body else { panic!("colours") };
+    let Pattern::Warped { warps, pattern } = &**pattern else { panic!("warps") };
+    assert!(matches!(warps[..], [PointWarp::Turbulence(_)]));
+    let Pattern::Map { value, .. } = &**pattern else { panic!("map") };
+    assert!(matches!(value.ramp, Ramp::Spiral { turbulence: Some(_), .. }));
+}
+
+#[test]
+fn an_entry_of_a_texture_map_may_have_a_pattern_of_its_own() {
+    let text = "sphere { 0, 1 texture { gradient x texture_map {
+        [0 checker texture { pigment { rgb 0 } } texture { pigment { rgb 1 } } scale 2]
+        [1 gradient y texture_map { [0 pigment { rgb 0 }] [1 pigment { rgb 1 }] } rotate 30*z] } } }";
+    let texture = scene(text).objects[0].texture.clone().unwrap();
+    assert!(!matches!(texture.body, TextureBody::Layers(_)));
+}
+
+#[test]
 fn weights_of_an_average_may_be_left_out() {
     let pigment = pigment("average pigment_map { [rgb 1] [2 rgb 0] }");
     let PigmentBody::Pigments(pattern) = &pigment.body else { panic!("pigments") };
@@ -63,6 +82,11 @@ fn normals_are_read_with_their_amounts() {
     let TextureBody::Layers(layers) = &texture.body else { panic!("layers") };
     let normal = layers[0].normal.as_ref().unwrap();
     assert!(matches!(normal.body, NormalBody::Push { push: Push::Bumps, amount: 0.9, .. }));
+    // A slope map has no effect on patterns that push the normal in their own way.
+    let text = "sphere { 0, 1 normal { quilted 0.7 slope_map { [0 <0, 1>] [1 <1, 1>] } } }";
+    let texture = scene(text).objects[0].texture.clone().unwrap();
+    let TextureBody::Layers(layers) = &texture.body else { panic!("layers") };
+    assert!(matches!(layers[0].normal.as_ref().unwrap().body, NormalBody::Push { .. }));
     let declared =
         "#declare S = slope_map { [0 <0, 1>] [1 <1, 1>] } #declare N = normal { onion 2 slope_map { S } }
         sphere { 0, 1 texture { pigment { rgb 1 } normal { N } } }";

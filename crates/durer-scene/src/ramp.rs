@@ -38,8 +38,8 @@ pub enum Ramp {
         arms: f64,
         /// Whether a second spiral is laid over it.
         double: bool,
-        /// A shift of the spiral along z.
-        shift: f64,
+        /// The turbulence that also shifts the spiral along z.
+        turbulence: Option<Turbulence>,
     },
     /// Cushions in unit cubes. The two numbers bend the seam at its bottom and at its top.
     Quilted(f64, f64),

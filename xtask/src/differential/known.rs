@@ -4,7 +4,7 @@
 //! Best is a scene with the same surfaces in other words: if POV-Ray draws these as durer draws the
 //! scene itself, POV-Ray contradicts itself, and no fault of durer is hidden.
 
-use super::scene::{Node, Scene};
+use super::tree::{Node, Scene};
 
 /// An entry of docs/differences.md about surfaces that POV-Ray draws right in other words.
 pub(super) struct Reworded {
@@ -32,11 +32,12 @@ pub(super) struct Known {
 }
 
 /// All entries that a scene of the generator can have.
-pub(super) const ALL: [Known; 4] = [
+pub(super) const ALL: [Known; 5] = [
     Known { entry: "`no_shadow` holds for every part of a union.", without: without_no_shadow },
     Known { entry: "A camera exactly on a clear sphere", without: without_camera_on_a_surface },
     Known { entry: "Two surfaces at the same place.", without: without_second_ceiling },
     Known { entry: "Two surfaces at the same place.", without: with_things_apart },
+    Known { entry: "`slope` and `aoi` on bumps", without: without_slopes },
 ];
 
 /// With all `Reworded` at once, and their entries.
@@ -146,6 +147,22 @@ fn with_polygons(scene: &Scene) -> Option<Scene> {
     })
 }
 
+/// With another pattern for `slope` and `aoi`, if the scene has bumps and textures of textures.
+fn without_slopes(scene: &Scene) -> Option<Scene> {
+    let text = scene.text();
+    if !text.contains("normal {") || !text.contains("texture {") {
+        return None;
+    }
+    rewritten(scene, |open| {
+        if let Some(at) = open.find("slope {") {
+            let end = at + open[at..].find('}')? + 1;
+            return Some(format!("{}leopard{}", &open[..at], &open[end..]));
+        }
+        let (before, word) = open.rsplit_once(' ')?;
+        (word == "aoi").then(|| format!("{before} leopard"))
+    })
+}
+
 /// With the declared objects apart that the scene shows more than once.
 fn with_things_apart(scene: &Scene) -> Option<Scene> {
     let mut less = scene.clone();
@@ -227,13 +244,13 @@ fn without_second_ceiling(scene: &Scene) -> Option<Scene> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene;
+    use super::super::{looks, solids};
     use super::*;
 
     #[test]
     fn each_known_difference_occurs_and_is_removed() {
         for known in &ALL {
-            let scenes = (0..400).map(|n| scene::scene(9, n));
+            let scenes = (0..400).flat_map(|n| [solids::scene(9, n), looks::scene(9, n)]);
             let found = scenes.filter(|s| (known.without)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }
@@ -242,7 +259,7 @@ mod tests {
     #[test]
     fn each_surface_in_other_words_occurs() {
         for known in &REWORDED {
-            let scenes = (0..400).map(|n| scene::scene(9, n));
+            let scenes = (0..400).map(|n| solids::scene(9, n));
             let found = scenes.filter(|s| (known.reworded)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }

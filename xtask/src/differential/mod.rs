@@ -2,19 +2,22 @@
 //! the scenes whose pictures differ.
 
 mod known;
+mod looks;
 mod random;
 mod reduce;
-mod scene;
+mod solids;
+mod tree;
 
 use crate::Outcome;
 use crate::command::{Durer, Shot};
 use crate::compare::{REQUIRED, compare, differs_at, reproducible_differences};
 use crate::picture::Picture;
 use crate::povray::{self, Povray};
-use scene::Scene;
+
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use tree::Scene;
 
 const SHOT: Shot<'static> = Shot { width: 96, height: 72, aa: "off", threads: Some(1) };
 
@@ -24,13 +27,44 @@ const ALONE: usize = 24;
 /// The number of smaller scenes to try for a scene that differs.
 const TRIES: usize = 400;
 
+/// A kind of random scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Family {
+    /// Solids and plain textures.
+    Solids,
+    /// Textures, patterns, cameras, lights, atmosphere and the words of the language.
+    Looks,
+}
+
+impl Family {
+    fn scene(self, seed: u64, number: u64) -> Scene {
+        match self {
+            Self::Solids => solids::scene(seed, number),
+            Self::Looks => looks::scene(seed, number),
+        }
+    }
+
+    /// The first part of the names of its files.
+    fn prefix(self) -> &'static str {
+        match self {
+            Self::Solids => "seed",
+            Self::Looks => "looks",
+        }
+    }
+}
+
 /// The request on the command line.
 #[derive(Debug, PartialEq)]
 struct Request {
+    family: Family,
+    /// The `durer` command to use in place of one built for release.
+    durer: Option<PathBuf>,
     scenes: u64,
     seed: u64,
     first: u64,
     reduce: bool,
+    /// The number of scenes at once.
+    threads: Option<u64>,
 }
 
 /// The result of rendering a scene with both programs.
@@ -41,8 +75,8 @@ enum Verdict {
     Differs(f64),
     /// durer does not render it, for this reason.
     Refused(String),
-    /// POV-Ray does not render it.
-    NoScene,
+    /// POV-Ray does not render it, for this reason.
+    NoScene(String),
     /// The pixels that differ also change in POV-Ray's own picture when the whole scene is moved by
     /// a thousandth, or agree when it renders nothing but the pixel. Then they depend on rounding,
     /// or on the object that POV-Ray remembers from earlier shadow rays and tests twice.
@@ -85,8 +119,9 @@ impl Bench<'_> {
         // Both programs read one file, which holds the scene for one of them after the other.
         let scene = file(".pov");
         write(&scene, &reworded.text())?;
-        if self.povray.render(&scene, &theirs, SHOT).is_err() {
-            return Ok(Verdict::NoScene);
+        if let Err(why) = self.povray.render(&scene, &theirs, SHOT) {
+            let said: Vec<&str> = why.lines().skip(1).flat_map(str::split_whitespace).collect();
+            return Ok(Verdict::NoScene(said.join(" ")));
         }
         write(&scene, &shown.text())?;
         if let Err(why) = self.durer.render(&scene, &ours, SHOT) {
@@ -231,9 +266,11 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         println!("differential: {}", povray::MISSING);
         return Ok(());
     };
-    let durer = Durer::build()?;
+    let durer = request.durer.clone().map_or_else(Durer::build, |program| Ok(Durer::at(program)))?;
     let folder = crate::command::root().join("target/differential");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    // With POV-Ray's grains, patterns of noise can be compared.
+    let durer = durer.with_learned_noise(&folder.join("data"))?;
     let bench = Bench { durer: &durer, povray: &povray, folder: folder.clone() };
     let next = AtomicU64::new(request.first);
     let (last, found) = (request.first + request.scenes, Mutex::new(Vec::new()));
@@ -246,7 +283,8 @@ pub(crate) fn run(words: &[String]) -> Outcome {
                 return;
             }
             match one(&bench, &request, number) {
-                Ok(Verdict::NoScene) => {
+                Ok(Verdict::NoScene(why)) => {
+                    println!("scene {number}: no scene for POV-Ray: {why}");
                     skipped.fetch_add(1, Ordering::Relaxed);
                 }
                 Ok(Verdict::Noise) => {
@@ -271,7 +309,8 @@ pub(crate) fn run(words: &[String]) -> Outcome {
             }
         }
     };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let cores = || std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
+    let threads = request.threads.unwrap_or_else(cores);
     std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
     if let Ok(Some(why)) = failed.into_inner() {
         return Err(why);
@@ -293,8 +332,8 @@ pub(crate) fn run(words: &[String]) -> Outcome {
 
 /// Judges one scene. If the programs differ, its file and pictures are kept.
 fn one(bench: &Bench<'_>, request: &Request, number: u64) -> Outcome<Verdict> {
-    let scene = scene::scene(request.seed, number);
-    let name = format!("seed-{}-{number}", request.seed);
+    let scene = request.family.scene(request.seed, number);
+    let name = format!("{}-{}-{number}", request.family.prefix(), request.seed);
     let mut verdict = bench.judge(&scene, &name)?;
     if let Verdict::Differs(_) = verdict
         && let Some(entry) = bench.known(&scene, &name)?
@@ -330,17 +369,32 @@ fn said(verdict: &Verdict) -> String {
 
 impl Request {
     fn read(words: &[String]) -> Outcome<Self> {
-        let mut request = Self { scenes: 100, seed: 1, first: 0, reduce: true };
+        let mut request = Self {
+            family: Family::Solids,
+            durer: None,
+            scenes: 100,
+            seed: 1,
+            first: 0,
+            reduce: true,
+            threads: None,
+        };
         let mut words = words.iter();
         while let Some(word) = words.next() {
+            let mut value = || words.next().ok_or_else(|| format!("differential: {word} needs a value"));
+            if word == "--durer" {
+                request.durer = Some(PathBuf::from(value()?));
+                continue;
+            }
             let mut number = || {
-                let n = words.next().ok_or_else(|| format!("differential: {word} needs a number"))?;
+                let n = value()?;
                 n.parse().map_err(|_| format!("differential: {n:?} is no number"))
             };
             match word.as_str() {
                 "--scenes" => request.scenes = number()?,
                 "--seed" => request.seed = number()?,
+                "--threads" => request.threads = Some(number()?),
                 "--first" => request.first = number()?,
+                "--looks" => request.family = Family::Looks,
                 "--whole" => request.reduce = false,
                 _ => return Err(format!("differential: there is no option {word}")),
             }
@@ -353,21 +407,24 @@ impl Request {
 mod tests {
     use super::*;
 
+    const FAMILIES: [Family; 2] = [Family::Solids, Family::Looks];
+
     #[test]
     fn a_number_gives_one_scene() {
-        for number in 0..50 {
-            let scene = scene::scene(7, number);
-            assert_eq!(scene.text(), scene::scene(7, number).text());
-            let text = scene.text();
-            assert_eq!(text.matches('{').count(), text.matches('}').count(), "{text}");
+        for family in FAMILIES {
+            for number in 0..50 {
+                let scene = family.scene(7, number);
+                assert_eq!(scene.text(), family.scene(7, number).text());
+                let text = scene.text();
+                assert_eq!(text.matches('{').count(), text.matches('}').count(), "{text}");
+            }
+            assert_ne!(family.scene(7, 1).text(), family.scene(8, 1).text());
         }
-        assert_ne!(scene::scene(7, 1).text(), scene::scene(8, 1).text());
     }
 
     #[test]
     fn every_smaller_scene_is_smaller() {
-        for number in 0..20 {
-            let scene = scene::scene(3, number);
+        for scene in FAMILIES.iter().flat_map(|family| (0..20).map(|number| family.scene(3, number))) {
             let all = reduce::smaller(&scene);
             assert!(!all.is_empty() && all.iter().all(|less| less.size() < scene.size()));
         }

@@ -1,6 +1,6 @@
 //! Reduction of scenes: everything is removed that can go while the two programs still differ.
 
-use super::scene::{Node, Scene};
+use super::tree::{NEEDED, Node, Scene};
 
 /// All scenes that are one step smaller, those with the most removed first.
 pub(super) fn smaller(scene: &Scene) -> Vec<Scene> {
@@ -16,6 +16,10 @@ pub(super) fn smaller(scene: &Scene) -> Vec<Scene> {
         let mut less = scene.clone();
         less.settings.remove(at);
         all.push(less);
+    }
+    within(scene, &mut all, |s| &s.settings, |s| &mut s.settings);
+    for camera in cut(&scene.camera) {
+        all.push(Scene { camera, ..scene.clone() });
     }
     all.retain(|less| less != scene);
     all.sort_by_key(Scene::size);
@@ -55,6 +59,11 @@ fn within(
 /// Smaller versions of a node: without a part, without a modifier, or with one part only.
 fn cut(node: &Node) -> Vec<Node> {
     let mut all = Vec::new();
+    for (word, plain) in [("pigment {", "pigment { rgb 0.6"), ("finish {", "finish {")] {
+        if node.open.starts_with(word) && node.size() > 1 {
+            all.push(Node::block(plain, Vec::new(), node.least));
+        }
+    }
     // A declaration keeps its name.
     let (name, _) =
         node.open.split_once(" = ").filter(|(n, _)| n.starts_with("#declare ")).unwrap_or_default();
@@ -65,7 +74,7 @@ fn cut(node: &Node) -> Vec<Node> {
         part
     };
     if !node.open.contains("#macro") {
-        for part in &node.parts {
+        for part in node.parts.iter().filter(|part| part.close == "}") {
             all.push(renamed(part.clone()));
             if node.close == "}" && part.close == "}" {
                 let mut alone = part.clone();
@@ -89,9 +98,11 @@ fn cut(node: &Node) -> Vec<Node> {
     // The step of a loop stays, or the loop would not end.
     let said = if node.close == "#end" { 0 } else { node.said.len() };
     for at in 0..said {
-        let mut less = node.clone();
-        less.said.remove(at);
-        all.push(less);
+        if node.said[at].least != NEEDED {
+            let mut less = node.clone();
+            less.said.remove(at);
+            all.push(less);
+        }
         for smaller in cut(&node.said[at]) {
             let mut less = node.clone();
             less.said[at] = smaller;

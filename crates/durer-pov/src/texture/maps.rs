@@ -147,27 +147,13 @@ impl Parser<'_> {
         Ok(Rc::new(Map::new(entries, self.check_map_depth(depth)?)))
     }
 
-    /// Reads an entry of a texture map: identifiers, `texture {}` blocks, or the items of one
-    /// texture.
+    /// Reads an entry of a texture map: `texture {}` blocks, or the items of one texture, which may
+    /// have a pattern of its own.
     fn texture_entry(&mut self) -> Result<Texture> {
         if self.peek_word()? == Some(Keyword::Texture) {
             return self.texture_value();
         }
-        let mut texture = match self.peek()? {
-            Item::Value(Value::Texture(known)) => {
-                let known = (**known).clone();
-                self.next()?;
-                known
-            }
-            _ => Texture::single((*self.defaults).clone()),
-        };
-        loop {
-            if let Some(by) = self.transform_item()? {
-                texture.transform(&by);
-            } else if !self.layer_item(&mut texture)? {
-                return Ok(texture);
-            }
-        }
+        self.nested(|r| r.texture_items(Mark::SquareClose))
     }
 
     /// Reads a texture made of textures: the list of a discrete pattern, or the map after a

@@ -143,6 +143,13 @@ impl Parser<'_> {
     /// Reads what stands in braces after `texture`.
     pub(crate) fn texture_block(&mut self) -> Result<Texture> {
         self.expect(Mark::BraceOpen)?;
+        let texture = self.texture_items(Mark::BraceClose)?;
+        self.expect(Mark::BraceClose)?;
+        Ok(texture)
+    }
+
+    /// Reads the items of a texture up to `end`, which is left there.
+    pub(crate) fn texture_items(&mut self, end: Mark) -> Result<Texture> {
         let mut texture = Texture::single((*self.defaults).clone());
         let mut on_chart = false;
         if let Item::Value(Value::Texture(known)) = self.peek()? {
@@ -188,11 +195,12 @@ impl Parser<'_> {
             {
                 continue;
             }
-            let lexeme = self.next()?;
-            match &lexeme.item {
-                Item::Mark(Mark::BraceClose) => break,
-                _ => return Err(self.unexpected(&lexeme, "a part of a texture, or `}`")),
+            if self.at_mark(end)? {
+                break;
             }
+            let lexeme = self.next()?;
+            let wanted = if end == Mark::BraceClose { "a part of a texture, or `}`" } else { "`]`" };
+            return Err(self.unexpected(&lexeme, wanted));
         }
         if let Texture::Patterned { map, .. } = &texture
             && map.entries.is_empty()

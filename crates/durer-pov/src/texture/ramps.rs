@@ -27,7 +27,7 @@ impl Parser<'_> {
         let ramp = match word {
             Keyword::Spiral1 | Keyword::Spiral2 => {
                 self.next()?;
-                Ramp::Spiral { arms: self.float()?, double: word == Keyword::Spiral2, shift: 0.0 }
+                Ramp::Spiral { arms: self.float()?, double: word == Keyword::Spiral2, turbulence: None }
             }
             Keyword::Quilted => {
                 self.next()?;

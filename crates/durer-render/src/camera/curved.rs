@@ -120,6 +120,29 @@ impl Curved {
         Ray::new(origin, r * v.x + u * v.y + f * v.z)
     }
 
+    /// The place at which a normal of the camera is evaluated, in the numbers in which the formulas
+    /// above are written: angles in radians, and for a fisheye the angle in the picture and that from
+    /// the direction of view. This was found from POV-Ray's pictures with bumps that jump.
+    pub(super) fn place_on_picture(&self, px: f64, py: f64) -> [f64; 2] {
+        let (x, y) = (px, -py);
+        let [right, up, _] = self.lengths;
+        match self.kind {
+            Kind::Fisheye(angle) => {
+                let (x, y) = (x * right, y * up);
+                [elementary::atan2(y, x), (x * x + y * y).sqrt() * angle * 0.5]
+            }
+            Kind::Omnimax => {
+                let (x, y) = omnimax_place(x, y, up / right);
+                [elementary::atan2(y, x), omnimax_angle((x * x + y * y).sqrt())]
+            }
+            Kind::UltraWideAngle(angle) => [x * angle * 0.5, y * angle * 0.5 * up / right],
+            Kind::Spherical(wide, high) => [x * wide * 0.5, y * high * 0.5],
+            Kind::Panoramic => [FRAC_PI_2 - x * FRAC_PI_2, y * FRAC_PI_2],
+            Kind::Cylinder { angle, vertical: true, .. } => [x * angle * 0.5, y * up * 0.5],
+            Kind::Cylinder { angle, vertical: false, .. } => [x * right * 0.5, y * angle * 0.5],
+        }
+    }
+
     /// The rays through some points.
     pub(super) fn rays(&self, px: F8, py: F8) -> (Point3<F8>, Vec3<F8>) {
         let mut origin = Vec3::<F8>::splat(self.origin.to_vec());
@@ -142,22 +165,58 @@ impl Curved {
     }
 }
 
-/// The direction to the right, up and forwards of a point of the Omnimax picture; zero where it
-/// shows nothing. `k` is the height of the picture in units of its width.
-fn omnimax(x: f64, y: f64, k: f64) -> Vec3 {
+/// The point of the Omnimax lens's picture, whose radius is 1, at a point of the whole picture. `k` is
+/// the height of that in units of its width.
+fn omnimax_place(x: f64, y: f64, k: f64) -> (f64, f64) {
     let half = 0.5 * (1.0 + OMNIMAX_END);
-    let (x, y) = if k >= 1.0 {
+    if k >= 1.0 {
         (x, y * k)
     } else if k >= half {
         (x, y * k + (1.0 - k))
     } else {
         (x * half / k, y * half + (1.0 - half))
-    };
-    let r = (x * x + y * y).sqrt();
+    }
+}
+
+/// The angle from the direction of view at the distance `r` from the middle of the lens's picture.
+fn omnimax_angle(r: f64) -> f64 {
     let square = r * r;
-    let angle = r * (1.411_269 + square * (-0.094_389 + square * 0.256_74));
-    let (sin, cos) = elementary::sin_cos(angle);
+    r * (1.411_269 + square * (-0.094_389 + square * 0.256_74))
+}
+
+/// The direction to the right, up and forwards of a point of the Omnimax picture; zero where it
+/// shows nothing.
+fn omnimax(x: f64, y: f64, k: f64) -> Vec3 {
+    let (x, y) = omnimax_place(x, y, k);
+    let r = (x * x + y * y).sqrt();
+    let (sin, cos) = elementary::sin_cos(omnimax_angle(r));
     let aside = if r > 0.0 { sin / r } else { 0.0 };
     let v = Vec3::new(x * aside, y * aside, cos);
     if r > 1.0 || v.y + v.z < 0.0 { Vec3::ZERO } else { v }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_are_evaluated_at_angles() {
+        let place = |projection, x, y| {
+            let camera = durer_scene::Camera {
+                right: Vec3::new(4.0 / 3.0, 0.0, 0.0),
+                up: Vec3::Y,
+                projection,
+                ..Default::default()
+            };
+            Curved::new(&camera).unwrap().place_on_picture(x, y)
+        };
+        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;
+        assert!(near(place(Projection::Fisheye(2.0), 0.0, -0.5), [FRAC_PI_2, 0.5]));
+        assert!(near(place(Projection::UltraWideAngle(2.0), 0.5, -1.0), [0.5, 0.75]));
+        assert!(near(place(Projection::Spherical(3.0, 2.0), 0.5, 0.5), [0.75, -0.5]));
+        assert!(near(place(Projection::Panoramic, 1.0, 0.0), [0.0, 0.0]));
+        let tube = |vertical| Projection::Cylinder { angle: 2.0, vertical, moving: false };
+        assert!(near(place(tube(true), 0.5, -1.0), [0.5, 0.5]));
+        assert!(near(place(tube(false), 1.0, -0.5), [2.0 / 3.0, 0.5]));
+    }
 }

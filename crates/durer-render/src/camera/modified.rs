@@ -53,7 +53,11 @@ impl Modified {
             return ray;
         }
         if let Some(normal) = &self.normal {
-            let (u, v) = (0.5 * on_picture(x, picture.0), -0.5 * on_picture(y, picture.1));
+            let (u, v) = (on_picture(x, picture.0), on_picture(y, picture.1));
+            let [u, v] = match &self.base {
+                Camera::Curved(curved) => curved.place_on_picture(u, v),
+                _ => [0.5 * u, -0.5 * v],
+            };
             let around = Around8 {
                 points: Vec3::<F8>::splat(Vec3::new(u, v, 0.0)).to_point(),
                 normals: Vec3::<F8>::splat(unit(ray.direction)),

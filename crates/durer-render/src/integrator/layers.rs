@@ -183,7 +183,8 @@ impl<'w> Coats<'w> {
             let around = spot.around();
             let view = &mut spot.view;
             view.normal = normal.perturbed(spot.inside, &around, live);
-            view.cosine = (-dot(view.normal, view.eye)).max(F8::ZERO).min(F8::ONE);
+            // It is negative where the perturbed normal points away from the eye.
+            view.cosine = (-dot(view.normal, view.eye)).max(-F8::ONE).min(F8::ONE);
         }
     }
 

@@ -70,10 +70,15 @@ impl Interface {
         Self { crossing, ratio, fresnel_ratio }
     }
 
-    /// The fraction of the light that is reflected.
+    /// The fraction of the light that is reflected: all of it where a perturbed normal points away
+    /// from the eye, at a negative `cosine` (a fact of the language).
     #[inline(always)]
     pub(super) fn fresnel(&self, cosine: F8) -> F8 {
-        if self.fresnel_ratio == 1.0 { F8::ZERO } else { reflectance(self.fresnel_ratio, cosine) }
+        if self.fresnel_ratio == 1.0 {
+            cosine.lt(F8::ZERO).select(F8::ONE, F8::ZERO)
+        } else {
+            reflectance(self.fresnel_ratio, cosine)
+        }
     }
 }
 

@@ -148,10 +148,11 @@ impl Cells {
     }
 }
 
-/// Two unit vectors across a direction and each other.
+/// Two unit vectors across a direction and each other; the first one is across z, too (a fact of
+/// the language, seen in the shadows of POV-Ray's lights of one row).
 fn around(d: Vec3<F8>) -> (Vec3<F8>, Vec3<F8>) {
-    let steep = F8::splat(0.9).lt(d.y.abs());
-    let helper = steep.select3(Vec3::<F8>::splat(Vec3::X), Vec3::<F8>::splat(Vec3::Y));
+    let along_z = F8::splat(0.99).lt(d.z.abs());
+    let helper = along_z.select3(Vec3::<F8>::splat(Vec3::Y), Vec3::<F8>::splat(Vec3::Z));
     let across = cross(helper, d);
     let across = across * (F8::ONE / dot(across, across).sqrt());
     (across, cross(d, across))
@@ -186,6 +187,19 @@ mod tests {
             illuminates: false,
         };
         Area::new(&area).unwrap()
+    }
+
+    #[test]
+    fn the_first_side_of_an_oriented_light_is_across_z() {
+        for d in [Vec3::Y, Vec3::new(-0.512, 0.768, -0.384), Vec3::new(0.6, 0.0, 0.8)] {
+            let (across, up) = around(Vec3::<F8>::splat(d));
+            let (across, up) = (across.lane(0), up.lane(0));
+            assert_eq!(across.z, 0.0);
+            assert!((dot(across, across) - 1.0).abs() < 1e-15);
+            assert!(
+                dot(across, d).abs() < 1e-15 && dot(up, d).abs() < 1e-15 && dot(up, across).abs() < 1e-15
+            );
+        }
     }
 
     /// Weights measured with POV-Ray, by hiding one point after the other.

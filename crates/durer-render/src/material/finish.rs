@@ -222,6 +222,7 @@ impl Mirror {
         } else if self.min == self.max {
             (Rgb8::splat(self.min), most)
         } else {
+            // Where a perturbed normal points away from the eye this is above 1 (a fact of the language).
             let k = self.falloff.lanes((F8::ONE - cosine).max(F8::ZERO), live);
             // Here the angle has no effect.
             (Rgb8::mixed(self.min, self.max, k), most)
@@ -319,5 +320,7 @@ mod tests {
         assert_eq!(at(1.0), 0.2);
         assert!((at(0.5) - 0.4).abs() < 1e-15);
         assert_eq!(at(0.0), 1.0);
+        // POV-Ray's mirrors reflect more than that where a perturbed normal points away.
+        assert!((at(-0.5) - 2.0).abs() < 1e-15);
     }
 }

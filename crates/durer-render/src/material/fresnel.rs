@@ -4,8 +4,9 @@ use crate::vector::dot;
 use durer_math::{F8, M8, Vec3};
 
 /// The fraction of unpolarised light that is reflected. The light arrives at an angle of cosine
-/// `cosine >= 0`, from a medium whose index is `n` times that of the medium behind
-/// (`n = n_from / n_to`). The answer is 1 beyond the critical angle.
+/// `cosine`, from a medium whose index is `n` times that of the medium behind
+/// (`n = n_from / n_to`). The answer is 1 beyond the critical angle and where
+/// the cosine is negative.
 #[inline(always)]
 pub(crate) fn reflectance(n: f64, cosine: F8) -> F8 {
     let sine2 = (F8::ONE - cosine * cosine) * (n * n);
@@ -77,6 +78,13 @@ mod tests {
         assert!((reflectance(1.0 / 1.5, 1.0) - 0.04).abs() < 1e-15);
         assert!((reflectance(1.5, 1.0) - 0.04).abs() < 1e-15);
         assert_eq!(reflectance(1.0, 0.5), 0.0);
+    }
+
+    #[test]
+    fn a_normal_that_points_away_reflects_all() {
+        for (n, cosine) in [(1.5, -0.1), (1.0 / 1.5, -0.1), (1.0 / 1.4, -0.9)] {
+            assert_eq!(reflectance(n, cosine), 1.0, "{n} {cosine}");
+        }
     }
 
     /// All bounces inside a clear plate together let `T = 2 n / (n^2 + 1)` pass head-on (the

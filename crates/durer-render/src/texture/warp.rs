@@ -28,7 +28,7 @@ impl Warp {
             PointWarp::Turbulence(turbulence) => Self::Stir(Stir::new(turbulence)),
             &PointWarp::Repeat { axis, width, offset, flip } => Self::Repeat { axis, width, offset, flip },
             PointWarp::BlackHole(hole) => Self::BlackHole(*hole),
-            PointWarp::Wrapped(wrap) => Self::Wrapped(*wrap),
+            PointWarp::Wrapped(wrap) => Self::Wrapped(Wrap { orientation: unit(wrap.orientation), ..*wrap }),
             PointWarp::Cubic => Self::Cubic,
             &PointWarp::Planar { normal, distance } => Self::Planar(unit(normal), distance),
         }
@@ -150,21 +150,46 @@ fn angle(x: f64, z: f64) -> f64 {
     turn - floor(turn)
 }
 
-/// A point of the flat pattern, which is seen along `orientation` instead of z.
-fn along(flat: Vec3, orientation: Vec3) -> Point3 {
+/// The point of a flat pattern, which is seen along the unit vector `n` instead of z. This is the
+/// scene language's map, which is a rotation only for directions along an axis; it was fitted to
+/// POV-Ray's values.
+fn along(flat: Vec3, n: Vec3) -> Point3 {
     let Vec3 { x: u, y: v, z: d } = flat;
-    if orientation.x != 0.0 {
-        Point3::new(d, v, u)
-    } else if orientation.y != 0.0 {
-        Point3::new(u, d, v)
-    } else {
-        Point3::new(u, v, d)
-    }
+    Point3::new((n.y + n.z) * u + n.x * d, (n.x + n.z) * v - n.y * d, n.y * v - n.x * u + n.z * d)
 }
 
 /// The point of the plane `z = d` for a point of another plane with the unit normal `n` and the
-/// distance `d` from the origin. This is the scene language's map, which is a rotation only for
-/// normals along an axis; it was fitted to POV-Ray's values.
+/// distance `d` from the origin.
 fn flattened(p: Point3, n: Vec3, d: f64) -> Point3 {
-    Point3::new((n.y + n.z) * p.x + n.x * d, (n.x + n.z) * p.y - n.y * d, n.y * p.y - n.x * p.x + n.z * d)
+    along(Vec3::new(p.x, p.y, d), n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The values are those of POV-Ray: its gradients along the three axes, without their waves.
+    #[test]
+    fn a_wrapped_pattern_turns_with_its_orientation() {
+        let p = Point3::new(-1.048, 0.177, -0.52);
+        let at = |around, orientation| {
+            Warp::new(&PointWarp::Wrapped(Wrap { around, orientation, growth: 0.0 })).image(p).to_array()
+        };
+        let (u, v, r) = (0.5733, 0.177, 1.1699);
+        let all = [
+            (Vec3::Z, [u, v, r]),
+            (Vec3::Y * 2.0, [u, -r, v]),
+            (Vec3::X, [r, v, -u]),
+            (Vec3::Z * -1.0, [-u, -v, -r]),
+            (Vec3::Y * -1.0, [-u, r, -v]),
+            (Vec3::X * -1.0, [-r, -v, u]),
+            (Vec3::new(1.0, 1.0, 0.0), [1.2326, -0.7021, -0.2802]),
+        ];
+        for (orientation, want) in all {
+            let found = at(WrapAround::Cylinder, orientation);
+            assert!(found.iter().zip(want).all(|(a, b)| (a - b).abs() < 2e-4), "{orientation:?}: {found:?}");
+        }
+        let found = at(WrapAround::Sphere, Vec3::Y);
+        assert!(found.iter().zip([u, -1.1832, 0.5478]).all(|(a, b)| (a - b).abs() < 2e-4), "{found:?}");
+    }
 }

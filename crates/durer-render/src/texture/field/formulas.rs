@@ -33,13 +33,15 @@ pub(super) fn radial(p: Point3) -> f64 {
 /// A spiral around the z axis:
 ///
 /// ```text
-///   one:  z + r + n (theta/(2 pi) + 1/4),   two:  tri(one) + tri(r),   tri(w) = 1 - |2 frac(w) - 1|
+///   one:  z + r + n frac(theta/(2 pi) + 1/4),   two:  tri(one) + tri(r),   tri(w) = 1 - |2 frac(w) - 1|
 /// ```
 ///
 /// for `n` arms at the distance `r` from the axis and the angle `theta` from the x axis.
 pub(super) fn spiral(p: Point3, arms: f64, double: bool, shift: f64) -> f64 {
     let r = (p.x * p.x + p.y * p.y).sqrt();
-    let one = p.z + r + shift + arms * (elementary::atan2(p.y, p.x) / TAU + 0.25);
+    // The angle goes from 0 to 1, from the direction -y on. A frequency shows where it begins.
+    let turn = elementary::atan2(p.y, p.x) / TAU + 0.25;
+    let one = p.z + r + shift + arms * (turn - floor(turn));
     if double { triangle(one) + triangle(r) } else { one }
 }
 
@@ -69,6 +71,16 @@ mod tests {
     use super::*;
 
     /// Values of POV-Ray.
+    #[test]
+    fn the_angle_of_a_spiral_begins_at_minus_y() {
+        // POV-Ray's values, less the radius 1.
+        for (degrees, want) in [(-170.0_f64, 0.7778), (-110.0, 0.9444), (-70.0, 0.0556), (170.0, 0.7222)] {
+            let (sin, cos) = elementary::sin_cos(degrees.to_radians());
+            let found = spiral(Point3::new(cos, sin, 0.0), 1.0, false, 0.0) - 1.0;
+            assert!((found - want).abs() < 1e-4, "{degrees}: {found}");
+        }
+    }
+
     #[test]
     fn spirals_and_quilts_have_known_values() {
         let at = |x, y, z| Point3::new(x, y, z);

@@ -41,7 +41,7 @@ pub(crate) enum Field {
     Radial,
     Marble(Option<Stir>),
     Wood(Option<Stir>),
-    Spiral { arms: f64, double: bool, shift: f64 },
+    Spiral { arms: f64, double: bool, stir: Option<Stir> },
     Quilted(f64, f64),
     Noise(Grain, Grains),
     Agate(f64, Stir),
@@ -75,7 +75,9 @@ impl Field {
             Ramp::Radial => Self::Radial,
             Ramp::Marble(turbulence) => Self::Marble(stir(turbulence)),
             Ramp::Wood(turbulence) => Self::Wood(stir(turbulence)),
-            &Ramp::Spiral { arms, double, shift } => Self::Spiral { arms, double, shift },
+            Ramp::Spiral { arms, double, turbulence } => {
+                Self::Spiral { arms: *arms, double: *double, stir: stir(turbulence) }
+            }
             &Ramp::Quilted(bottom, top) => Self::Quilted(bottom, top),
             Ramp::Noise(grain) => match &grain.kind {
                 durer_scene::GrainKind::Agate(amount, turbulence) => {
@@ -106,10 +108,7 @@ impl Field {
     #[inline]
     pub(super) fn value(&self, p: Point3, around: Around) -> f64 {
         match self {
-            Self::Gradient(axis) => {
-                let along = dot(*axis, p.to_vec());
-                if along > 1.0 { along - floor(along) } else { along }
-            }
+            Self::Gradient(axis) => part_above_1(dot(*axis, p.to_vec())),
             Self::Spherical => formulas::spherical(p),
             Self::Cylindrical => formulas::cylindrical(p),
             Self::Planar => (1.0 - p.y.abs()).max(0.0),
@@ -118,7 +117,12 @@ impl Field {
             Self::Leopard => formulas::leopard(p),
             Self::Radial => formulas::radial(p),
             &Self::Quilted(bottom, top) => formulas::quilted(p, bottom, top),
-            &Self::Spiral { arms, double, shift } => formulas::spiral(p, arms, double, shift),
+            Self::Spiral { arms, double, stir } => {
+                let shift = stir.as_ref().map_or(0.0, |stir| {
+                    stir.amount.x * stir.scalar(Vec3::<F8>::splat(p.to_vec()).to_point()).0[0]
+                });
+                formulas::spiral(p, *arms, *double, shift)
+            }
             Self::Cells => cell_number(p),
             Self::Ripples(centres) => centres.value(p),
             Self::Crackle(points) => points.value(p),
@@ -126,7 +130,7 @@ impl Field {
             Self::Pigment(pigment) => pigment.at(p, around).rgb.luminance(),
             Self::Picture(picture, value) => picture.value(p, *value),
             Self::Kind(cutter) => cutter.kind(p) as f64,
-            Self::Sampled(function) => function.value(&p.to_array()),
+            Self::Sampled(function) => part_above_1(function.value(&p.to_array())),
             Self::Slope(slope) => slope::value(slope, p, around),
             Self::Aoi => slope::incidence(around),
             &Self::Tiling(number) => tiling::value(number, p),
@@ -145,10 +149,7 @@ impl Field {
     #[inline(always)]
     pub(super) fn values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
         match self {
-            Self::Gradient(axis) => {
-                let along = dot(Vec3::<F8>::splat(*axis), p.to_vec());
-                (F8::ONE).lt(along).select(along - floor_lanes(along), along)
-            }
+            Self::Gradient(axis) => parts_above_1(dot(Vec3::<F8>::splat(*axis), p.to_vec())),
             _ => self.other_values(p, around, live),
         }
     }
@@ -159,7 +160,7 @@ impl Field {
             Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
             Self::Marble(stir) => noise::marble(stir.as_ref(), p),
             Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),
-            Self::Formula(program) => program.values(&[p.x, p.y, p.z]),
+            Self::Formula(program) => parts_above_1(program.values(&[p.x, p.y, p.z])),
             Self::Pigment(pigment) => {
                 let colours = pigment.colours(p, around, live);
                 by_lane(p, live, |i, _| colours.rgb.lane(i).luminance())
@@ -167,6 +168,19 @@ impl Field {
             _ => by_lane(p, live, |i, p| self.value(p, around.lane(i))),
         }
     }
+}
+
+/// The fractional part of a number above 1; another one as it is. A frequency shows the difference
+/// (a fact of the language).
+#[inline(always)]
+fn part_above_1(v: f64) -> f64 {
+    if v > 1.0 { v - floor(v) } else { v }
+}
+
+/// As [`part_above_1`].
+#[inline(always)]
+fn parts_above_1(v: F8) -> F8 {
+    (F8::ONE).lt(v).select(v - floor_lanes(v), v)
 }
 
 /// Calls `f` for each live lane.
