@@ -7,7 +7,8 @@
 //!   torus    u = 1/2 - turn(z, x),   v = 1/2 + turn(y, sqrt(x^2 + z^2) - R)
 //!   box      its six sides unfolded to a cross of 4 by 3 rectangles that fills the unit square
 //!   mesh     interpolated between the corners; 0 for faces without
-//!   sor      u as of a sphere,   v from 0 to 1 along y, with an equal share for each of its pieces
+//!   sor      u as of a sphere,   v from 0 to 1 along y, with an equal share for each of its pieces;
+//!            from -1 to 0 from the axis to the rim of its lower end, from 1 to 2 back to the axis of the upper
 //!   lathe    u as of a sphere,   v from 0 to 1 along its segments, each of which has an equal share
 //!   others   u = x, v = y of the point in the world
 //! ```
@@ -82,7 +83,7 @@ impl Chart {
             ChartKind::Revolution(points) => {
                 let Point3 { x, y, z } = own();
                 let u = turn(z, x);
-                [u - u.floor(), climbed(points, y)]
+                [u - u.floor(), climbed(points, [(x * x + z * z).sqrt(), y])]
             }
             ChartKind::Lathe(points) => {
                 let Point3 { x, y, z } = own();
@@ -119,9 +120,24 @@ pub fn unfolded([x, y, z]: [f64; 3]) -> [f64; 2] {
     [(column + (1.0 + u) / 2.0) / 4.0, (row + (1.0 + v) / 2.0) / 3.0]
 }
 
-/// The way along the pieces of a surface of revolution to a height, from 0 to 1.
-fn climbed(points: &[[f64; 2]], y: f64) -> f64 {
+/// So near to the height of an end, in units of the surface's size, a point counts as one of the flat
+/// end. The coordinates of points are known better, and a point of the wall that is as near to the rim
+/// has nearly the same coordinate either way.
+const NEAR_END: f64 = 1.0 / (1_u64 << 32) as f64;
+
+/// The way along a surface of revolution to a radius and a height: from 0 to 1 along its pieces, less on
+/// the lower end, more on the upper one.
+fn climbed(points: &[[f64; 2]], [r, y]: [f64; 2]) -> f64 {
     let pieces = points.len().saturating_sub(3);
+    let [Some(&lower), Some(&upper)] = [points.get(1), points.get(pieces + 1)] else { return 0.0 };
+    let size = points.iter().flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let is_on = |[rim, height]: [f64; 2]| r < rim && (y - height).abs() <= NEAR_END * size;
+    if is_on(lower) {
+        return r / lower[0] - 1.0;
+    }
+    if is_on(upper) {
+        return 2.0 - r / upper[0];
+    }
     for number in 0..pieces {
         let (from, to) = (points[number + 1][1], points[number + 2][1]);
         if y <= to || number + 1 == pieces {
@@ -194,7 +210,9 @@ mod tests {
         let lathe = Arc::from([[1.0, -2.0], [1.8, 0.0], [1.0, 2.0]]);
         close(at(ChartKind::Lathe(lathe), [0.0, y, -1.0889]), [0.75, 0.9444]);
         let sor = Arc::from([[1.0, -3.0], [1.0, -2.0], [1.8, 1.0], [1.0, 2.0], [1.0, 3.0]]);
-        close(at(ChartKind::Revolution(sor), [0.0, 4.0 / 9.0, -1.0]), [0.75, 0.4074]);
+        close(at(ChartKind::Revolution(Arc::clone(&sor)), [0.0, 4.0 / 9.0, -1.0]), [0.75, 0.4074]);
+        close(at(ChartKind::Revolution(Arc::clone(&sor)), [0.0, -2.0, -0.25]), [0.75, -0.75]);
+        close(at(ChartKind::Revolution(sor), [0.0, 2.0, 0.25]), [0.25, 1.75]);
         close(at(ChartKind::Flat, [1.0, 2.0, 3.0]), [1.0, 2.0]);
     }
 

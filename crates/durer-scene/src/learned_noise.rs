@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn it_is_the_noise_of_the_definition() {
-        let (noise, order, table) = (noise(), order(), table());
+        let (noise, order, table) = (noise(), permutation(), table());
         for k in 0..4096 {
             let p = [0.37, -0.21, 17.11].map(|step| step * f64::from(k) - 1000.0);
             let point = Point3::from(p);

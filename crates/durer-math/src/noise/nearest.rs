@@ -341,10 +341,10 @@ mod tests {
             let size = [1.0, 40.0, 1e6][(numbers.next() * 3.0) as usize];
             let p = [(); 3].map(|()| (numbers.next() - 0.5) * size);
             let exact = exact_squares(p);
-            for rank in 0..3 {
+            for (rank, exact) in exact.iter().enumerate().take(3) {
                 let bounds = Nearest::new(rank, 2.0, 0.0).unwrap().bounds(p.map(Interval::from));
                 let square = |x: f64| &Dyadic::from(x) * &Dyadic::from(x);
-                assert!(square(bounds.lo) <= exact[rank] && exact[rank] <= square(bounds.hi), "{p:?} {rank}");
+                assert!(square(bounds.lo) <= *exact && *exact <= square(bounds.hi), "{p:?} {rank}");
                 assert!(bounds.width() < 1e-8, "{p:?} {rank} {bounds:?}");
             }
         }

@@ -19,7 +19,7 @@
 //! lens's picture, `y` ends with it and `x` is widened. This was found from POV-Ray's pictures.
 
 use super::{CameraError, check};
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, TAU};
 use durer_math::lanes::LANES;
 use durer_math::{F8, Point3, Ray, Vec3, elementary};
 use durer_scene::Projection;
@@ -129,11 +129,11 @@ impl Curved {
         match self.kind {
             Kind::Fisheye(angle) => {
                 let (x, y) = (x * right, y * up);
-                [elementary::atan2(y, x), (x * x + y * y).sqrt() * angle * 0.5]
+                [angle_in_picture(x, y), (x * x + y * y).sqrt() * angle * 0.5]
             }
             Kind::Omnimax => {
                 let (x, y) = omnimax_place(x, y, up / right);
-                [elementary::atan2(y, x), omnimax_angle((x * x + y * y).sqrt())]
+                [angle_in_picture(x, y), omnimax_angle((x * x + y * y).sqrt())]
             }
             Kind::UltraWideAngle(angle) => [x * angle * 0.5, y * angle * 0.5 * up / right],
             Kind::Spherical(wide, high) => [x * wide * 0.5, y * high * 0.5],
@@ -163,6 +163,12 @@ impl Curved {
             self.frame[1] * (self.lengths[1] * 0.5),
         ]
     }
+}
+
+/// The angle of a point of the picture around its middle, from -pi/2 to 3 pi/2.
+fn angle_in_picture(x: f64, y: f64) -> f64 {
+    let angle = elementary::atan2(y, x);
+    if angle < -FRAC_PI_2 { angle + TAU } else { angle }
 }
 
 /// The point of the Omnimax lens's picture, whose radius is 1, at a point of the whole picture. `k` is
@@ -212,6 +218,7 @@ mod tests {
         };
         let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;
         assert!(near(place(Projection::Fisheye(2.0), 0.0, -0.5), [FRAC_PI_2, 0.5]));
+        assert!(near(place(Projection::Fisheye(2.0), -0.375, 0.5), [2.5 * FRAC_PI_2, 0.5_f64.sqrt()]));
         assert!(near(place(Projection::UltraWideAngle(2.0), 0.5, -1.0), [0.5, 0.75]));
         assert!(near(place(Projection::Spherical(3.0, 2.0), 0.5, 0.5), [0.75, -0.5]));
         assert!(near(place(Projection::Panoramic, 1.0, 0.0), [0.0, 0.0]));

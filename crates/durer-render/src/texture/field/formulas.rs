@@ -70,7 +70,6 @@ pub(super) fn quilt_curve(r: f64, bottom: f64, top: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Values of POV-Ray.
     #[test]
     fn the_angle_of_a_spiral_begins_at_minus_y() {
         // POV-Ray's values, less the radius 1.
@@ -81,6 +80,7 @@ mod tests {
         }
     }
 
+    /// Values of POV-Ray.
     #[test]
     fn spirals_and_quilts_have_known_values() {
         let at = |x, y, z| Point3::new(x, y, z);
