@@ -11,7 +11,7 @@ pub struct StraightSweep {
     /// Closed outlines in the plane across the path. Inside is what they go round an odd number of
     /// times.
     pub outlines: Vec<Vec<[f64; 2]>>,
-    /// How an outline goes through its points, as in [`Prism::spline`].
+    /// How an outline goes through its points, as in [`Prism::spline`](crate::Prism::spline).
     pub spline: Spline,
     /// The ends of the path.
     pub path: [Point3; 2],
