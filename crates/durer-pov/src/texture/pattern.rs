@@ -112,10 +112,12 @@ impl PatternModifiers {
         if let PatternKind::Written(word, _) = kind {
             self.wave = pattern_function::own_wave(*word).unwrap_or(self.wave);
         }
-        if let PatternKind::Ramp(ramp, _) = kind
-            && matches!(**ramp, durer_scene::Ramp::Spiral { .. })
-        {
-            self.wave = Wave::Triangle;
+        if let PatternKind::Ramp(ramp, _) = kind {
+            match **ramp {
+                durer_scene::Ramp::Spiral { .. } => self.wave = Wave::Triangle,
+                durer_scene::Ramp::Quilted(..) => self.frequency = 0.0,
+                _ => {}
+            }
         }
     }
 

@@ -538,11 +538,11 @@ impl View<'_> {
     /// On which side of the closed solid a point lies.
     pub(crate) fn side(&self, point: &LocalPoint<'_>) -> Side {
         let mut side = Side::In;
-        let exact = point.in_ring::<Dyadic>();
+        let mut exact = None;
         let (p, ep) = point.relative_to(self.frame.centre, self.frame.scale);
         for (i, form) in self.forms.iter().enumerate() {
             let sign = form.at(p, ep).0.sign().or_else(|| {
-                let (q, w) = exact.as_ref()?;
+                let (q, w) = exact.get_or_insert_with(|| point.in_ring::<Dyadic>()).as_ref()?;
                 let c = self.frame.centre.to_array().map(Dyadic::from);
                 let relative = [0, 1, 2].map(|k| (&q[k] - &(&c[k] * w)).scale2(-self.frame.scale));
                 self.shape.exact(i).at(&relative, w).sign()
