@@ -27,7 +27,7 @@ impl Warp {
             PointWarp::Placed(placement) => Self::Placed(Place::new(placement.affine())),
             PointWarp::Turbulence(turbulence) => Self::Stir(Stir::new(turbulence)),
             &PointWarp::Repeat { axis, width, offset, flip } => Self::Repeat { axis, width, offset, flip },
-            PointWarp::BlackHole(hole) => Self::BlackHole(*hole),
+            PointWarp::BlackHole(hole) => Self::BlackHole(within_blocks(*hole)),
             PointWarp::Wrapped(wrap) => Self::Wrapped(Wrap { orientation: unit(wrap.orientation), ..*wrap }),
             PointWarp::Cubic => Self::Cubic,
             &PointWarp::Planar { normal, distance } => Self::Planar(unit(normal), distance),
@@ -110,6 +110,17 @@ fn drawn(p: Point3, hole: &BlackHole) -> Point3 {
     p + away * if hole.inverse { -force } else { force }
 }
 
+/// The hole as POV-Ray takes it: along each axis along which it is repeated, its centre lies at least its
+/// radius behind the begin of the block, and the block ends at least that far behind the centre.
+fn within_blocks(hole: BlackHole) -> BlackHole {
+    let (mut centre, mut repeat) = (hole.centre.to_array(), hole.repeat.to_array());
+    for (centre, repeat) in centre.iter_mut().zip(&mut repeat).filter(|(_, repeat)| **repeat > 0.0) {
+        *centre = centre.max(hole.radius);
+        *repeat = repeat.max(*centre + hole.radius);
+    }
+    BlackHole { centre: Point3::from(centre), repeat: Vec3::from(repeat), ..hole }
+}
+
 /// A random shift for each block, from 0 to `most` along each axis.
 fn shift(block: [f64; 3], most: Vec3) -> Vec3 {
     let part = |salt: f64| {
@@ -169,6 +180,30 @@ mod tests {
     use super::*;
 
     /// The values are those of POV-Ray: its gradients along the three axes, without their waves.
+    /// Measured from POV-Ray's pictures.
+    #[test]
+    fn repeated_black_holes_fit_into_their_blocks() {
+        let blocks = |x: f64, radius: f64, repeat: Vec3| {
+            let (strength, falloff, inverse) = (1.0, 2.0, false);
+            let hole = BlackHole {
+                centre: Point3::new(x, 0.2, 0.0),
+                radius,
+                strength,
+                falloff,
+                inverse,
+                repeat,
+                scatter: Vec3::ZERO,
+            };
+            let made = within_blocks(hole);
+            (made.centre.to_array(), made.repeat.to_array())
+        };
+        let along_x = Vec3::new(1.5, 0.0, 0.0);
+        assert_eq!(blocks(0.5, 0.25, along_x), ([0.5, 0.2, 0.0], [1.5, 0.0, 0.0]));
+        assert_eq!(blocks(-0.5, 0.25, along_x), ([0.25, 0.2, 0.0], [1.5, 0.0, 0.0]));
+        assert_eq!(blocks(1.5, 0.25, along_x), ([1.5, 0.2, 0.0], [1.75, 0.0, 0.0]));
+        assert_eq!(blocks(0.5, 1.0, along_x), ([1.0, 0.2, 0.0], [2.0, 0.0, 0.0]));
+    }
+
     #[test]
     fn a_wrapped_pattern_turns_with_its_orientation() {
         let p = Point3::new(-1.048, 0.177, -0.52);
