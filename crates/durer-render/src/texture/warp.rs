@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 use durer_math::{F8, Point3, Vec3, elementary};
-use durer_scene::{Around as WrapAround, BlackHole, PointWarp, Wrap, unfolded};
+use durer_scene::{Around as WrapAround, BlackHole, CellNumbers, PointWarp, Wrap, unfolded};
 
 use super::field::Stir;
 use super::place::Place;
@@ -111,23 +111,20 @@ fn drawn(p: Point3, hole: &BlackHole) -> Point3 {
 }
 
 /// The hole as POV-Ray takes it: along each axis along which it is repeated, its centre lies at least its
-/// radius behind the begin of the block, and the block ends at least that far behind the centre.
+/// radius behind the begin of the block, and the block ends at least that far behind the farthest centre.
 fn within_blocks(hole: BlackHole) -> BlackHole {
     let (mut centre, mut repeat) = (hole.centre.to_array(), hole.repeat.to_array());
-    for (centre, repeat) in centre.iter_mut().zip(&mut repeat).filter(|(_, repeat)| **repeat > 0.0) {
-        *centre = centre.max(hole.radius);
-        *repeat = repeat.max(*centre + hole.radius);
+    for axis in (0..3).filter(|&axis| hole.repeat.to_array()[axis] > 0.0) {
+        centre[axis] = centre[axis].max(hole.radius);
+        repeat[axis] = repeat[axis].max(centre[axis] + hole.scatter.to_array()[axis] + hole.radius);
     }
     BlackHole { centre: Point3::from(centre), repeat: Vec3::from(repeat), ..hole }
 }
 
-/// A random shift for each block, from 0 to `most` along each axis.
+/// The shift of a block's hole, from 0 to `most` along each axis: by the block's random numbers.
 fn shift(block: [f64; 3], most: Vec3) -> Vec3 {
-    let part = |salt: f64| {
-        let [x, y, z] = block;
-        super::field::cell_number(Point3::new(x + 0.5, y + 0.5, z + 0.5 + salt))
-    };
-    Vec3::new(most.x * part(0.0), most.y * part(4096.0), most.z * part(8192.0))
+    let [x, y, z] = CellNumbers::get().of(block);
+    Vec3::new(most.x * x, most.y * y, most.z * z)
 }
 
 /// The point of the flat pattern that lies at `p`.
@@ -202,6 +199,8 @@ mod tests {
         assert_eq!(blocks(-0.5, 0.25, along_x), ([0.25, 0.2, 0.0], [1.5, 0.0, 0.0]));
         assert_eq!(blocks(1.5, 0.25, along_x), ([1.5, 0.2, 0.0], [1.75, 0.0, 0.0]));
         assert_eq!(blocks(0.5, 1.0, along_x), ([1.0, 0.2, 0.0], [2.0, 0.0, 0.0]));
+        let first = shift([0.0; 3], Vec3::new(1.0, 1.0, 0.0));
+        assert!((first.x - 0.7118).abs() < 1e-3 && (first.y - 0.4367).abs() < 1e-3 && first.z == 0.0);
     }
 
     #[test]
