@@ -46,15 +46,25 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             accuracy: own.accuracy,
         })),
     };
+    let turn = match &own.turn {
+        Some(turn) => Some(placement(turn, at)?),
+        None => None,
+    };
     let placement = placement(&own.modifiers.place, at)?;
     let (keeps_slope, on_chart) = (own.keeps_slope, own.modifiers.on_chart);
-    Ok(Some(scene::Normal { body, placement, keeps_slope, on_chart }))
+    Ok(Some(scene::Normal { body, placement, keeps_slope, on_chart, turn }))
 }
 
 /// A normal that perturbs nothing.
 fn level() -> scene::Normal {
     let body = scene::NormalBody::Push { warps: Vec::new(), push: scene::Push::Bumps, amount: 0.0 };
-    scene::Normal { body, placement: scene::Placement::IDENTITY, keeps_slope: false, on_chart: false }
+    scene::Normal {
+        body,
+        placement: scene::Placement::IDENTITY,
+        keeps_slope: false,
+        on_chart: false,
+        turn: None,
+    }
 }
 
 /// The vector that a normal adds, for the patterns that perturb normals in their own way.

@@ -16,6 +16,10 @@ pub struct Normal {
     /// Whether its pattern is seen at the surface's texture coordinates `(u, v, 0)` in place of the
     /// point. Then only its own placement counts.
     pub on_chart: bool,
+    /// Where its whole texture is seen at the surface's texture coordinates: the placement by which the
+    /// perturbation is turned, as that of other normals is by theirs. Without it the perturbation of a
+    /// normal on a chart is not turned.
+    pub turn: Option<Placement>,
 }
 
 impl Normal {

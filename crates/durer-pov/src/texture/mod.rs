@@ -79,7 +79,7 @@ impl Texture {
                 for layer in layers {
                     layer.pigment.modifiers.on_chart = true;
                     if let Some(normal) = &mut layer.normal {
-                        Rc::make_mut(normal).modifiers.on_chart = true;
+                        Rc::make_mut(normal).put_on_chart();
                     }
                 }
             }

@@ -61,13 +61,17 @@ const CORNERS: [[f64; 3]; 4] = {
 impl RenderNormal {
     /// Prepares a normal that is placed by `around`; that space is placed in the world by `outer`.
     pub(crate) fn new(normal: &Normal, around: &Affine, outer: &Affine) -> Result<Self, AffineError> {
-        // On a chart the normal is not turned with the pattern.
         let on_chart = normal.on_chart;
         let own = *normal.placement.affine();
         let local = if on_chart { own } else { own.then(around)? };
-        let world = local.then(outer)?;
-        let turn = (!on_chart && world.as_translation().is_none()).then(|| {
-            let (linear, inverse) = (world.linear(), world.inverse_linear());
+        // On a chart a normal is not turned with its pattern, unless its whole texture is on the chart.
+        let turn = match &normal.turn {
+            Some(turn) => Some(turn.affine().then(around)?.then(outer)?),
+            None if on_chart => None,
+            None => Some(local.then(outer)?),
+        };
+        let turn = turn.filter(|turn| turn.as_translation().is_none()).map(|turn| {
+            let (linear, inverse) = (turn.linear(), turn.inverse_linear());
             Box::new((transposed(&linear), transposed(&inverse)))
         });
         let (place, body) = match &normal.body {
