@@ -97,6 +97,34 @@ fn normals_are_read_with_their_amounts() {
 }
 
 #[test]
+fn the_normal_of_a_texture_at_texture_coordinates_is_turned() {
+    let turn_of = |text: &str| {
+        let texture = scene(text).objects[0].texture.clone().unwrap();
+        let TextureBody::Layers(layers) = &texture.body else { panic!("layers") };
+        let normal = layers[0].normal.as_ref().unwrap();
+        assert!(normal.on_chart);
+        normal.turn.as_ref().map(|turn| turn.affine().linear()[1][0].round())
+    };
+    let whole = "texture { uv_mapping pigment { rgb 1 } normal { bumps } }";
+    assert_eq!(turn_of(&format!("sphere {{ 0, 1 {whole} }}")), Some(0.0));
+    assert_eq!(turn_of(&format!("sphere {{ 0, 1 {whole} rotate z*90 }}")), Some(1.0));
+    assert_eq!(turn_of("sphere { 0, 1 normal { uv_mapping bumps } rotate z*90 }"), None);
+}
+
+#[test]
+fn quilted_has_no_frequency_unless_one_is_given() {
+    let frequency_of = |text: &str| {
+        let pigment = pigment(text);
+        let PigmentBody::Colours(pattern) = &pigment.body else { panic!("colours") };
+        let Pattern::Map { value, .. } = &**pattern else { panic!("map") };
+        value.frequency
+    };
+    assert_eq!(frequency_of("quilted phase 0.3"), 0.0);
+    assert_eq!(frequency_of("quilted frequency 2"), 2.0);
+    assert_eq!(frequency_of("onion"), 1.0);
+}
+
+#[test]
 fn the_sky_and_fog_are_read() {
     let scene = scene(
         "#declare F = fog { distance 5 rgb 1 } fog { F } fog { F fog_type 2 fog_alt 2 up y } fog { distance 0 }
