@@ -189,7 +189,7 @@ fn clipped_planes_obey_the_laws() {
         let stored = exact3(plane.normal().to_array());
         let square = |i: usize, j: usize| &stored[i] * &stored[j];
         let n2 = &(&square(0, 0) + &square(1, 1)) + &square(2, 2);
-        // One of the two planes (n·x)² = h² n·n: its side is told by another face.
+        // One of the two planes (n·x)² = h² n·n: another face decides its side.
         let pair = ExactForm {
             q: core::array::from_fn(|i| core::array::from_fn(|j| square(i, j))),
             b: core::array::from_fn(|_| Exact::zero()),
