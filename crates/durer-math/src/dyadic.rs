@@ -74,7 +74,7 @@ pub struct Dyadic {
 }
 
 /// Copies and operators are never inlined: the exact steps of all predicates consist of them, and
-/// would otherwise be a tenth of what is compiled.
+/// would otherwise be several times as long.
 impl Clone for Dyadic {
     #[inline(never)]
     fn clone(&self) -> Self {

@@ -91,7 +91,7 @@ impl Scene {
         text
     }
 
-    /// The same scene in another place. Everything visible stays where it was in the picture.
+    /// The scene, moved by a little with its camera: everything keeps its place in the picture.
     pub(super) fn moved(&self) -> Self {
         let mut moved = self.clone();
         let by = Node::text("translate <0.00123, 0.00217, 0.00331>");

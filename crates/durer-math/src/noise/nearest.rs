@@ -34,12 +34,12 @@ const WIDEST: f64 = 2.0;
 /// From here on unit cubes have no exact place.
 const FARTHEST: f64 = (1_u64 << 50) as f64;
 
-/// Cubes that matter are at most so many steps from the middle one: no distance of
-/// [`Nearest::everywhere`] is above 3.5, and half of the widest box is 1.
+/// Cubes that matter are at most so many steps from the middle one: no distance without the offset is
+/// above 3.5 (see [`Nearest::everywhere`]), and half of the widest box is 1.
 const SHELLS: usize = 5;
 
-/// As many random points are compared. Around a box of width 2, the balls of all distances that
-/// matter meet fewer cubes.
+/// The slopes of as many random points are compared, which small boxes never reach. Of more nothing is
+/// known.
 const MOST: usize = 512;
 
 /// A random point: the sum of the powers of the differences of its coordinates and those of the

@@ -31,7 +31,7 @@ use crate::value::Value;
 use durer_scene as scene;
 use scene::Operation;
 
-/// What an object is made of.
+/// The shape of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     /// A surface as the scene describes it.

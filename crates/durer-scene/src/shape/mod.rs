@@ -212,7 +212,7 @@ pub enum Shape {
     Ifs(Ifs),
     /// A sheet over the unit square, or under it all if the object is part of a solid.
     HeightField(Box<HeightField>),
-    /// The same, with heights made on demand.
+    /// A height field whose heights are made on demand.
     Terrain(Box<Terrain>),
     /// A solid, deformed. See [`Object::deformed`].
     Deform(Box<Deform>),
@@ -226,7 +226,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// What the shape is called in messages, with its article.
+    /// The name of the shape in messages, with its article.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Sphere { .. } => "a sphere",

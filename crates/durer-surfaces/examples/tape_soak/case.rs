@@ -6,6 +6,7 @@ mod bytes;
 
 use bytes::Bytes;
 use durer_formula::{Builder, Formula, NodeId, Op, Tape};
+use durer_math::noise::Nearest;
 use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Need, RootKind, Surface};
 
@@ -77,7 +78,7 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
     let mut b = Builder::new();
     let mut made: Vec<NodeId> = (0..3).map(|i| b.input(i)).collect::<Result<_, _>>().ok()?;
     for _ in 0..bytes.next() % 24 + 1 {
-        let code = bytes.next() % 20;
+        let code = bytes.next() % 21;
         let mut pick = || made[made.len() - 1 - usize::from(bytes.next()) % made.len()];
         let (x, y) = (pick(), pick());
         let op = match code {
@@ -107,6 +108,13 @@ fn steps(bytes: &mut Bytes<'_>) -> Option<Steps> {
                 // y + x a or y + x b, which are equal where x is zero.
                 let (below, above) = (b.push(Op::Mul(x, pick())).ok()?, b.push(Op::Mul(x, pick())).ok()?);
                 Op::Joined([x, b.push(Op::Add(y, below)).ok()?, b.push(Op::Add(y, above)).ok()?])
+            }
+            19 => {
+                let z = pick();
+                let exponent = [1.0, 2.0, 2.5, 6.0][usize::from(bytes.next()) % 4];
+                let offset = [0.0, 0.3][usize::from(bytes.next()) % 2];
+                let nearest = Nearest::shared(usize::from(bytes.next()) % 3, exponent, offset)?;
+                Op::Nearest(nearest, [x, y, z])
             }
             _ => Op::Function(FUNCTIONS[usize::from(bytes.next()) % 18], x),
         };
@@ -314,6 +322,7 @@ fn always_defined(formula: &Formula) -> bool {
                 | Op::Min(..)
                 | Op::Max(..)
                 | Op::Noise(..)
+                | Op::Nearest(..)
                 | Op::Joined(_)
                 | Op::Function(Function::Sin | Function::Cos | Function::Atan | Function::Tanh, _)
         )

@@ -159,6 +159,7 @@ const fn near_first() -> [[i32; 3]; 125] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use durer_math::noise::Nearest;
 
     #[test]
     fn every_cell_is_visited_once() {
@@ -166,6 +167,24 @@ mod tests {
         seen.sort_unstable();
         seen.dedup();
         assert_eq!((seen.len(), NEAR_FIRST[0]), (125, [0; 3]));
+    }
+
+    /// Functions of surfaces have the same distances, with proven bounds.
+    #[test]
+    fn values_are_sums_of_the_distances_of_functions() {
+        for (metric, offset) in [(2.0, 0.0), (2.0, 0.3), (1.0, 0.2), (3.5, 0.0)] {
+            for form in [Vec3::new(-1.0, 1.0, 0.0), Vec3::X, Vec3::new(-0.4, -0.2, 0.6)] {
+                let points = Points::new(&Crackle { form, metric, offset, solid: false });
+                for k in 0..300 {
+                    let k = f64::from(k);
+                    let p = Point3::new(k * 0.377 - 20.0, k * 0.611 - 40.0, 7.0 - k * 0.239);
+                    let distance = |rank| Nearest::new(rank, metric, offset).unwrap().value(p.to_array());
+                    let sum = form.x * distance(0) + form.y * distance(1) + form.z * distance(2);
+                    let (found, wanted) = (points.value(p), sum.clamp(0.0, 1.0));
+                    assert!((found - wanted).abs() < 1e-12, "{metric} {offset} {p:?}: {found} {wanted}");
+                }
+            }
+        }
     }
 
     #[test]
