@@ -13,10 +13,11 @@
 //! *spindle*); the part that is inside twice is then outside, by the sign of `f`. `r = R` is a
 //! *horn*.
 
-use crate::packet::{FilterSource, RevolutionKernel, RevolutionWall};
+use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
+use crate::revolution::packet::{RevolutionKernel, RevolutionWall};
 use crate::sphere::length;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
@@ -348,7 +349,7 @@ impl Accelerate for Torus {
             kappa_size: big + small,
         };
         let (i, lathe) = (self.index(), RevolutionKernel::new(&[wall], false));
-        FilterSource::lathe(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
+        FilterSource::kernel(self.bounds(), lathe, self.centre, self.scale(), [(i + 1) % 3, i, (i + 2) % 3])
     }
 }
 

@@ -12,8 +12,8 @@
 //! 0 or `l`.
 
 use super::BlobShape;
+use super::packet::Field;
 use super::{BlobComponent, march::Along};
-use crate::packet::Field;
 use crate::quadric::boolean_faces::tangents;
 use crate::{Accelerate, SphereError};
 use durer_math::eft::{scale2, two_diff};

@@ -26,13 +26,15 @@
 
 mod component;
 mod march;
+mod packet;
 mod point;
 mod refine;
 mod segment;
 mod tree;
 
+use self::packet::Fields;
 use crate::compose::clip::Algebraic;
-use crate::packet::{Fields, FilterSource};
+use crate::packet::FilterSource;
 use crate::{
     Accelerate, AxisBox, AxisBoxError, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
     Solidity, SphereError, Surface, SurfacePoint,
@@ -219,7 +221,7 @@ impl Accelerate for Blob {
         let boxes = self.components.iter().filter_map(|it| it.bounds().ok());
         let boxes: Vec<_> = boxes.map(|b| Aabb::new(unit(b.min), unit(b.max))).collect();
         match Fields::new(self.parts.iter().map(Component::for_lanes).collect(), &boxes, self.threshold) {
-            Some(fields) => FilterSource::fields(self.bounds, fields, self.centre, self.scale),
+            Some(fields) => FilterSource::kernel(self.bounds, fields, self.centre, self.scale, [0, 1, 2]),
             None => FilterSource::vague(self.bounds),
         }
     }

@@ -32,15 +32,13 @@ mod root_isolator;
 mod roots;
 mod subdivide;
 mod superellipsoid;
-mod superellipsoid_concave;
-mod superellipsoid_convex;
 
 pub use container::Container;
 pub(crate) use root_isolator::{CertifiedFunction, Found, RootIsolator, SignInfo};
 pub use superellipsoid::{SuperellipsoidError, superellipsoid};
 
 use crate::compose::clip::Algebraic;
-use crate::packet::{FilterSource, ImplicitKernel};
+use crate::packet::{FilterSource, ImplicitKernel, Segments};
 use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
@@ -50,8 +48,8 @@ use durer_math::{Aabb, Dyadic, F8, I8, Point3};
 use durer_roots::quadratic::Quadratic;
 use octree::{CellLookup, Cells};
 use std::sync::{Arc, OnceLock};
-use superellipsoid_concave::Star;
-use superellipsoid_convex::Gauge;
+use superellipsoid::concave::Star;
+use superellipsoid::convex::Gauge;
 
 /// The surface of a formula in a container. Face 0 is the formula's; the container's faces follow.
 ///
@@ -228,12 +226,12 @@ impl Accelerate for Isosurface {
             (None, None) => {
                 return FilterSource::contained(
                     self.container.packet_filter(),
-                    Arc::new(self.clone()),
+                    Segments(Arc::new(self.clone())),
                     Point3::ORIGIN,
                 );
             }
         };
-        FilterSource::level(self.bounds(), level, Point3::ORIGIN)
+        FilterSource::kernel(self.bounds(), Segments(level), Point3::ORIGIN, 0, [0, 1, 2])
     }
 }
 

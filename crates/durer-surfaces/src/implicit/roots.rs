@@ -8,7 +8,7 @@ use super::line::BoundedLine;
 use super::octree::CellLookup;
 use super::polynomial::isolate_powers;
 use super::root_isolator::{CertifiedFunction, Found, RootIsolator, SignInfo};
-use super::superellipsoid_convex::Answer;
+use super::superellipsoid::convex::Answer;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink};
 use arrayvec::ArrayVec;
 use core::ops::ControlFlow;

@@ -29,7 +29,9 @@
 use super::embed::Lift;
 use super::orbit::{Ball, Rule, TINY};
 use super::{JuliaPower, Solid};
-use crate::packet::{FilterSource, ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
+use crate::packet::{
+    FilterSource, ImplicitKernel, Line8, LineExtent8, Segment8, Segments, Skin, Slant, Value8,
+};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
 use std::sync::Arc;
@@ -60,7 +62,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         let Rule { escapes, iterations, radius, .. } = self.rule;
         let seen = escapes && (iterations as usize) < MOST && radius > 1.0 && 4.0 * radius * radius < GONE;
         if seen {
-            FilterSource::level(bounds, Arc::new(self.clone()), Point3::ORIGIN)
+            FilterSource::kernel(bounds, Segments(Arc::new(self.clone())), Point3::ORIGIN, 0, [0, 1, 2])
         } else {
             FilterSource::vague(bounds)
         }

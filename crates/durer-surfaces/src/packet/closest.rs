@@ -6,6 +6,7 @@
 
 use super::PacketFilter;
 use super::convex::Hull;
+use super::implicit::Stream;
 use super::kernel::{self, Detail};
 use super::quadratic_roots::{Leaving, PlaneRoot, Roots, SlabRoots};
 use super::quadric::{FaceKind, QuadricFace8, Seen, Start, taxicab};
@@ -68,7 +69,7 @@ impl PacketFilter {
         if let Some(detail) = &self.detail {
             let is_cut = self.cell(detail, asked, scratch);
             let Scratch { start, steps: Steps { hull, detail: memory, .. } } = scratch;
-            detail.meet((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
+            detail.first((asked, self.turned), nearest, (start, is_cut.then_some(hull)), memory);
             return;
         }
         // A bounding box has faces of its own, and rays do not start on those.
@@ -85,7 +86,7 @@ impl PacketFilter {
     /// of one after the other.
     #[inline]
     pub fn is_asked_together(&self) -> bool {
-        self.detail.as_ref().is_some_and(|detail| detail.level().is_some())
+        self.detail.as_ref().is_some_and(|detail| detail.kernel.segments().is_some())
     }
 
     /// [`PacketFilter::meet`] for those packets that are `open`.
@@ -96,14 +97,15 @@ impl PacketFilter {
         nearest: &mut [Nearest],
         scratch: &mut Scratch,
     ) {
-        let Some((detail, level)) = self.detail.as_ref().and_then(|detail| Some((detail, detail.level()?)))
+        let Some((detail, level)) =
+            self.detail.as_ref().and_then(|detail| Some((detail, detail.kernel.segments()?)))
         else {
             for ((asked, nearest), _) in asked.iter().zip(nearest).zip(open).filter(|(_, open)| **open) {
                 self.meet(asked, nearest, scratch);
             }
             return;
         };
-        scratch.steps.detail.level.clear();
+        scratch.steps.detail.of::<Stream>().clear();
         for (i, ((asked, nearest), &open)) in asked.iter().zip(&mut *nearest).zip(open).enumerate() {
             if !open || self.is_passed_by(asked.rays, &mut scratch.start) {
                 continue;
@@ -111,16 +113,16 @@ impl PacketFilter {
             let is_cut = self.cell(detail, asked, scratch);
             let Scratch { start, steps: Steps { hull, detail: memory, .. } } = scratch;
             let held = (&*start, is_cut.then_some(&*hull));
-            memory.level.add(i, (level, detail.own(), self.turned), asked, held, nearest);
+            memory.of::<Stream>().add(i, (level, &detail.own, self.turned), asked, held, nearest);
         }
-        scratch.steps.detail.level.meet(level, asked, nearest);
+        scratch.steps.detail.of::<Stream>().meet(level, asked, nearest);
     }
 
     /// The part of each ray inside the convex cell that clips or contains the surface, if there is
     /// one.
     fn cell(&self, detail: &Detail, asked: &PacketQuery<'_>, scratch: &mut Scratch) -> bool {
         let is_contained = detail.is_contained();
-        let is_cut = is_contained || detail.is_endless() && !self.faces.is_empty();
+        let is_cut = is_contained || detail.kernel.is_unbounded() && !self.faces.is_empty();
         if is_cut {
             let Scratch { start, steps } = scratch;
             let seen = &Seen { d: asked.rays.direction, d1: &asked.rays.d1, start };

@@ -7,19 +7,19 @@ use durer_math::{F8, Isa, M8};
 
 /// The greatest entry so far; with the signs exchanged, the least exit.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Extreme {
-    pub(super) t: F8,
-    pub(super) e: F8,
-    pub(super) face: F8,
+pub(crate) struct Extreme {
+    pub(crate) t: F8,
+    pub(crate) e: F8,
+    pub(crate) face: F8,
     /// The upper end of all other entries.
-    pub(super) others: F8,
+    pub(crate) others: F8,
 }
 
-pub(super) const BEFORE: F8 = F8::splat(f64::NEG_INFINITY);
+pub(crate) const BEFORE: F8 = F8::splat(f64::NEG_INFINITY);
 
 impl Extreme {
     #[inline(always)]
-    pub(super) fn take(&mut self, is_first: bool, lanes: M8, t: F8, e: F8, face: F8) {
+    pub(crate) fn take(&mut self, is_first: bool, lanes: M8, t: F8, e: F8, face: F8) {
         if is_first {
             self.t = lanes.select(t, BEFORE);
             self.e = lanes.keep(e);
@@ -38,13 +38,13 @@ impl Extreme {
 
 /// Entry and exit from the faces seen so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Hull {
+pub(crate) struct Hull {
     /// The latest entry.
-    pub(super) enter: Extreme,
+    pub(crate) enter: Extreme,
     /// The earliest exit, negated.
-    pub(super) leave: Extreme,
-    pub(super) missed: M8,
-    pub(super) unsure: M8,
+    pub(crate) leave: Extreme,
+    pub(crate) missed: M8,
+    pub(crate) unsure: M8,
 }
 
 impl Hull {

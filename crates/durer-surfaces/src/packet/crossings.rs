@@ -7,7 +7,7 @@
 use super::PacketFilter;
 use super::closest::{FaceSteps, Scratch, Spot, Steps};
 use super::convex::Hull;
-use super::kernel::Detail;
+use super::kernel::{Detail, KernelRays};
 use super::quadric::{FaceKind, Seen, Start};
 use super::rays::{FAR, From8, NEVER, RayLanes};
 use arrayvec::ArrayVec;
@@ -79,14 +79,14 @@ impl Crossings {
     }
 
     /// The stored crossings, mutable.
-    pub(super) fn all(&mut self) -> &mut [Crossing8] {
+    pub(crate) fn all(&mut self) -> &mut [Crossing8] {
         &mut self.list
     }
 
     /// Adds a crossing, in one slot with crossings of other rays where possible. If no slot is free
     /// the crossing becomes a doubt.
     #[inline(always)]
-    pub(super) fn push(&mut self, sure: M8, t: F8, e: F8, (face, tag): (F8, F8)) {
+    pub(crate) fn push(&mut self, sure: M8, t: F8, e: F8, (face, tag): (F8, F8)) {
         if !sure.any() {
             return;
         }
@@ -105,7 +105,7 @@ impl Crossings {
 
     /// Marks everything from `t` on as uncertain for these lanes.
     #[inline(always)]
-    pub(super) fn doubt_from(&mut self, lanes: M8, t: F8) {
+    pub(crate) fn doubt_from(&mut self, lanes: M8, t: F8) {
         // `max` returns zero for NaN.
         self.doubt.set_where(lanes, t.max(F8::ZERO).min(self.doubt));
     }
@@ -156,7 +156,7 @@ impl PacketFilter {
 
     /// The kernel that describes the operand in addition to its faces, if there is one.
     fn as_detail(&self) -> Option<&Detail> {
-        self.detail.as_deref().filter(|detail| detail.is_operand())
+        self.detail.as_deref().filter(|detail| detail.kernel.is_operand())
     }
 
     /// Whether the solid is the complement of the set inside the faces.
@@ -173,7 +173,7 @@ impl PacketFilter {
 
     /// Whether the surface is unbounded, so that it pays to know which part of a ray matters.
     pub fn is_endless(&self) -> bool {
-        self.as_detail().is_some_and(Detail::is_endless)
+        self.as_detail().is_some_and(|detail| detail.kernel.is_unbounded())
     }
 
     /// Computes the rays in the filter's coordinates. Returns whether every ray certainly misses
@@ -223,9 +223,10 @@ impl PacketFilter {
         to.list.clear();
         to.doubt = NEVER;
         if let Some(detail) = self.as_detail() {
-            let rays = (rays, from.map(|from| (from, self.turned)));
-            let within = within.map(|sight| &sight.hull);
-            detail.crossings(rays, (&sight.start, within), to, &mut scratch.steps.detail);
+            let leaving = from.map(|from| (from, self.turned));
+            let cell = within.map(|sight| &sight.hull);
+            let seen = KernelRays { own: &detail.own, rays, leaving, start: &sight.start, cell };
+            detail.kernel.crossings(&seen, to, &mut scratch.steps.detail);
         } else if self.convex {
             self.both_ends(rays, sight, to);
         } else {
@@ -335,8 +336,10 @@ impl PacketFilter {
     ) -> (u8, u8) {
         let (inside, outside) = match self.as_detail() {
             Some(detail) => {
+                let start = &sight.start;
+                let seen = KernelRays { own: &detail.own, rays, leaving: None, start, cell: None };
                 let memory = &mut scratch.steps.detail;
-                let (inside, outside) = detail.holds(rays, &sight.start, ((*t, *e), asked), memory);
+                let (inside, outside) = detail.kernel.holds(&seen, (*t, *e), asked, memory);
                 (inside & asked, outside & asked)
             }
             None if self.convex => {

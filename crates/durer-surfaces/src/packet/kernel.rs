@@ -1,83 +1,159 @@
-//! Packet kernels: equations of degree above two, in the surface's own coordinates.
+//! Packet kernels: surfaces that are not faces of degree two, in coordinates of their own.
+//!
+//! Each kernel stands beside its surface (`revolution/packet/`, `prism/packet/`, `blob/packet/`,
+//! `algebraic/packet/`, and `implicit/` here for solids that are classified segment by segment).
+//! A filter knows it as a [`PacketKernel`].
 
-use super::PacketFilter;
-use super::blob::{self, Fields};
 use super::closest::PacketQuery;
 use super::convex::Hull;
 use super::crossings::Crossings;
-use super::implicit::{self, Ends, ImplicitKernel};
+use super::implicit::ImplicitKernel;
 use super::local_frame::{Own, OwnSketch};
-use super::polynomial::{self, Terms};
-use super::prism::{self, Swept};
 use super::quadric::Start;
 use super::rays::{From8, Nearest, RayLanes};
-use super::revolution::{self, RevolutionKernel, Skin, Slant};
-use super::sink::{First, Sink8};
+use super::sink::First;
+use super::skin::{Skin, Slant};
 use crate::quadric::form::Form;
-use core::slice;
+use core::any::Any;
+use core::fmt::Debug;
 use durer_math::{Dd, EFloat, F8, Isa, Point3, Vec3};
 use std::sync::Arc;
 
-/// The kinds of packet kernel.
-#[derive(Clone, Debug)]
-pub(crate) enum PacketKernel {
-    /// A surface of revolution.
-    Revolution(Arc<RevolutionKernel>),
-    /// A part of a swept solid.
-    Swept(Arc<Swept>),
-    /// The zero set of a polynomial of degree up to four.
-    Quartic(Arc<Terms<5>>),
-    /// The zero set of a polynomial of degree up to eight.
-    Octic(Arc<Terms<9>>),
-    /// The zero set of a polynomial of degree up to sixteen.
-    High(Arc<Terms<17>>),
-    /// A blob.
-    Fields(Arc<Fields>),
-    /// A solid that is classified segment by segment.
-    Level(Arc<dyn ImplicitKernel>),
+/// Eight rays before a surface: what every kernel starts from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct KernelRays<'a> {
+    /// The surface's own coordinates.
+    pub(crate) own: &'a Own,
+    pub(crate) rays: &'a RayLanes<'a>,
+    /// Rays that start on the surface, and whether the surface is turned.
+    pub(crate) leaving: Option<(&'a From8, bool)>,
+    pub(crate) start: &'a Start,
+    /// The convex cell that clips or contains the surface.
+    pub(crate) cell: Option<&'a Hull>,
+}
+
+/// Points of a face: its number, the tag that [`Nearest`] stores, the points relative to the
+/// filter's centre, and upper bounds of their `|h|₁`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FacePoints {
+    pub(crate) face: usize,
+    pub(crate) tag: F8,
+    pub(crate) h: Vec3<F8>,
+    pub(crate) h1: F8,
+}
+
+/// A surface for eight rays at a time, in its own coordinates.
+///
+/// What a kernel says is certain; where rounding leaves something open it reports a doubt, and the
+/// ray asks the surface itself. Calls go through a table of functions, so each method enters the
+/// instruction set of its rays by itself.
+pub(crate) trait PacketKernel: Debug + Send + Sync {
+    /// The `Root::face` of the face with this number.
+    fn face_of(&self, number: u32) -> u32;
+
+    /// Whether the surface is unbounded except for what clips it.
+    fn is_unbounded(&self) -> bool {
+        false
+    }
+
+    /// Whether the surface lies in a container with faces of its own. These are numbered after the
+    /// surface's own face.
+    fn is_contained(&self) -> bool {
+        false
+    }
+
+    /// Whether the kernel finds all crossings, and the side of points.
+    fn is_operand(&self) -> bool {
+        true
+    }
+
+    /// The kernel that classifies segments, if it is one: several packets are then advanced
+    /// together.
+    fn segments(&self) -> Option<&dyn ImplicitKernel> {
+        None
+    }
+
+    /// Passes the first crossing of each ray, and the doubts, to `nearest`; of an unbounded or
+    /// contained surface, the first one inside the cell.
+    fn first(
+        &self,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    );
+
+    /// Stores all crossings of a solid; of an unbounded one, those inside the cell.
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch);
+
+    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
+    /// inside the solid, and those that are certainly outside.
+    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), asked: u8, scratch: &mut KernelScratch) -> (u8, u8);
+
+    /// `f`, half its gradient and their errors at points of a face.
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin);
+
+    /// `f` and half its gradient, rounded, near a face.
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        let mut skin = Skin::NONE;
+        self.skin(isa, own, at, &mut skin);
+        *to = Slant { f: skin.f, half: skin.half };
+    }
+
+    /// Replaces points by covectors for shading there. Returns false if these are the surface's
+    /// own.
+    fn shading(&self, _isa: Isa, _own: &Own, _h: &mut Vec3<F8>) -> bool {
+        false
+    }
 }
 
 /// The kernel and its coordinates before rounding.
 #[derive(Clone, Debug)]
 pub(super) struct DetailSketch {
     own: OwnSketch,
-    shape: PacketKernel,
+    kernel: Arc<dyn PacketKernel>,
 }
 
 /// The kernel and its coordinates, rounded to f64.
 #[derive(Clone, Debug)]
 pub(super) struct Detail {
-    own: Own,
-    shape: PacketKernel,
+    pub(super) own: Own,
+    pub(super) kernel: Arc<dyn PacketKernel>,
 }
 
-/// Working memory for one kernel.
+/// Working memory of kernels: one value of each type that a kernel has asked for.
 #[derive(Debug, Default)]
-pub(super) struct KernelScratch {
-    lathe: revolution::RevolutionScratch,
-    swept: prism::PrismScratch,
-    quartic: polynomial::PolynomialScratch<5>,
-    octic: polynomial::PolynomialScratch<9>,
-    high: polynomial::PolynomialScratch<17>,
-    fields: blob::BlobScratch,
-    pub(super) level: implicit::Stream,
+pub(crate) struct KernelScratch(Vec<Box<dyn Any + Send + Sync>>);
+
+impl KernelScratch {
+    /// The value of this type. It is kept between calls.
+    pub(crate) fn of<T: Any + Default + Send + Sync>(&mut self) -> &mut T {
+        let place = self.0.iter().position(|value| value.is::<T>()).unwrap_or_else(|| {
+            self.0.push(Box::new(T::default()));
+            self.0.len() - 1
+        });
+        match self.0[place].downcast_mut() {
+            Some(value) => value,
+            None => unreachable!("`place` holds a value of this type"),
+        }
+    }
 }
 
 impl DetailSketch {
-    /// A surface of revolution; see [`OwnSketch::new`].
+    /// A kernel for coordinates in units of `2^scale` about `origin`; see [`OwnSketch::new`].
     pub(super) fn new(
-        shape: PacketKernel,
+        kernel: Arc<dyn PacketKernel>,
         centre: Point3,
         origin: Point3,
         scale: i32,
         order: [usize; 3],
     ) -> Self {
-        Self { own: OwnSketch::new(centre, origin, scale, order), shape }
+        Self { own: OwnSketch::new(centre, origin, scale, order), kernel }
     }
 
-    /// Whether the surface is unbounded except for what clips it.
-    pub(super) fn is_endless(&self) -> bool {
-        self.shape.is_endless()
+    /// See [`PacketKernel::is_unbounded`].
+    pub(super) fn is_unbounded(&self) -> bool {
+        self.kernel.is_unbounded()
     }
 
     /// See [`OwnSketch::moved`].
@@ -86,176 +162,33 @@ impl DetailSketch {
     }
 
     pub(super) fn round(&self) -> Option<Detail> {
-        Some(Detail { own: self.own.round()?, shape: self.shape.clone() })
-    }
-}
-
-impl PacketKernel {
-    fn is_contained(&self) -> bool {
-        matches!(self, Self::Level(level) if level.ends().0 != Ends::Free)
-    }
-
-    fn is_endless(&self) -> bool {
-        matches!(self, Self::Quartic(_) | Self::Octic(_) | Self::High(_))
+        Some(Detail { own: self.own.round()?, kernel: self.kernel.clone() })
     }
 }
 
 impl Detail {
-    /// Whether the surface lies in a container with faces of its own. These are numbered after the
-    /// surface's own face.
+    /// See [`PacketKernel::is_contained`].
     pub(super) fn is_contained(&self) -> bool {
-        self.shape.is_contained()
+        self.kernel.is_contained()
     }
 
-    /// See [`DetailSketch::is_endless`].
-    pub(super) fn is_endless(&self) -> bool {
-        self.shape.is_endless()
-    }
-
-    /// The `Root::face` of the face with this number.
-    #[inline]
-    pub(super) fn face_of(&self, face: u32) -> u32 {
-        match &self.shape {
-            PacketKernel::Revolution(lathe) => lathe.name(face),
-            PacketKernel::Swept(swept) => swept.face(face),
-            PacketKernel::Quartic(_)
-            | PacketKernel::Octic(_)
-            | PacketKernel::High(_)
-            | PacketKernel::Fields(_) => 0,
-            PacketKernel::Level(_) => face,
-        }
-    }
-
-    /// Passes the first crossing of each ray to `nearest`; of an unbounded or contained surface,
-    /// the first one inside a convex cell.
-    pub(super) fn meet(
+    /// See [`PacketKernel::first`]. `turned` is whether the surface is turned.
+    pub(super) fn first(
         &self,
-        (asked, turned): (&PacketQuery<'_>, bool),
+        (query, turned): (&PacketQuery<'_>, bool),
         nearest: &mut Nearest,
         (start, cell): (&Start, Option<&Hull>),
-        memory: &mut KernelScratch,
+        scratch: &mut KernelScratch,
     ) {
-        if let PacketKernel::Swept(swept) = &self.shape {
-            swept.meet(&self.own, asked, start, nearest, &mut memory.swept);
-            return;
-        }
-        if let Some(level) = self.level() {
-            memory.level.clear();
-            memory.level.add(0, (level, &self.own, turned), asked, (start, cell), nearest);
-            memory.level.meet(level, slice::from_ref(asked), slice::from_mut(nearest));
-            return;
-        }
-        let mut to = First { nearest, number: asked.number };
-        let leaving = asked.from.map(|from| (from, turned));
-        self.show((asked.rays, leaving), (start, cell), &mut to, memory);
+        let leaving = query.from.map(|from| (from, turned));
+        let seen = KernelRays { own: &self.own, rays: query.rays, leaving, start, cell };
+        self.kernel.first(&seen, query, nearest, scratch);
     }
+}
 
-    /// The segment-by-segment kernel, if it is one.
-    #[inline]
-    pub(super) fn level(&self) -> Option<&dyn ImplicitKernel> {
-        if let PacketKernel::Level(level) = &self.shape { Some(&**level) } else { None }
-    }
-
-    /// The kernel's coordinates.
-    pub(super) fn own(&self) -> &Own {
-        &self.own
-    }
-
-    /// Whether the kernel finds all crossings, and the side of points.
-    pub(super) fn is_operand(&self) -> bool {
-        match &self.shape {
-            PacketKernel::Revolution(lathe) => lathe.faces() <= PacketFilter::FACES,
-            PacketKernel::Swept(swept) => swept.is_operand(),
-            PacketKernel::Quartic(_)
-            | PacketKernel::Octic(_)
-            | PacketKernel::High(_)
-            | PacketKernel::Fields(_) => true,
-            PacketKernel::Level(_) => false,
-        }
-    }
-
-    /// Stores all crossings of a solid; of an unbounded one, those inside a convex cell.
-    pub(super) fn crossings(
-        &self,
-        rays: (&RayLanes<'_>, Option<(&From8, bool)>),
-        (start, cell): (&Start, Option<&Hull>),
-        to: &mut Crossings,
-        memory: &mut KernelScratch,
-    ) {
-        if let PacketKernel::Swept(swept) = &self.shape {
-            swept.crossings(&self.own, rays, start, to, &mut memory.swept);
-            return;
-        }
-        self.show(rays, (start, cell), to, memory);
-    }
-
-    fn show<K: Sink8>(
-        &self,
-        rays: (&RayLanes<'_>, Option<(&From8, bool)>),
-        (start, cell): (&Start, Option<&Hull>),
-        to: &mut K,
-        memory: &mut KernelScratch,
-    ) {
-        match &self.shape {
-            PacketKernel::Revolution(lathe) => lathe.meet(&self.own, rays, start, to, &mut memory.lathe),
-            PacketKernel::Swept(_) | PacketKernel::Level(_) => {}
-            PacketKernel::Quartic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.quartic),
-            PacketKernel::Octic(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.octic),
-            PacketKernel::High(f) => f.meet(&self.own, rays, (start, cell), to, &mut memory.high),
-            PacketKernel::Fields(fields) => fields.meet(&self.own, rays, start, to, &mut memory.fields),
-        }
-    }
-
-    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
-    /// inside the solid, and those that are certainly outside.
-    pub(super) fn holds(
-        &self,
-        rays: &RayLanes<'_>,
-        start: &Start,
-        (at, asked): ((F8, F8), u8),
-        memory: &mut KernelScratch,
-    ) -> (u8, u8) {
-        match &self.shape {
-            PacketKernel::Revolution(lathe) => lathe.holds(&self.own, rays, start, at),
-            PacketKernel::Swept(swept) => swept.holds(&self.own, rays, start, (at, asked), &mut memory.swept),
-            PacketKernel::Quartic(f) => f.holds(&self.own, rays, start, at),
-            PacketKernel::Octic(f) => f.holds(&self.own, rays, start, at),
-            PacketKernel::High(f) => f.holds(&self.own, rays, start, at),
-            PacketKernel::Fields(fields) => fields.holds(&self.own, rays, start, at),
-            PacketKernel::Level(_) => (0, 0),
-        }
-    }
-
-    /// Rounded data near a face.
-    #[inline(always)]
-    pub(super) fn slant(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Slant {
-        match &self.shape {
-            PacketKernel::Level(level) => implicit::slant(&**level, isa, &self.own, h),
-            _ => {
-                let Skin { f, half, .. } = self.skin(isa, (face, tag), h, h1);
-                Slant { f, half }
-            }
-        }
-    }
-
-    /// Data at points of a face; `tag` is the one that [`Nearest`] stores for them.
-    #[inline(always)]
-    pub(super) fn skin(&self, isa: Isa, (face, tag): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
-        match &self.shape {
-            PacketKernel::Revolution(lathe) => lathe.skin(&self.own, face, h, h1),
-            PacketKernel::Swept(swept) => swept.spot(&self.own, (face, tag), h, h1),
-            PacketKernel::Quartic(f) => f.skin(&self.own, h, h1),
-            PacketKernel::Octic(f) => f.skin(&self.own, h, h1),
-            PacketKernel::High(f) => f.skin(&self.own, h, h1),
-            PacketKernel::Fields(fields) => fields.skin(&self.own, h, h1),
-            PacketKernel::Level(level) => implicit::skin(&**level, isa, &self.own, h, h1),
-        }
-    }
-
-    /// Covectors for shading, if they differ from the surface's own.
-    #[inline(always)]
-    pub(super) fn shading(&self, isa: Isa, h: Vec3<F8>) -> Option<Vec3<F8>> {
-        let PacketKernel::Level(level) = &self.shape else { return None };
-        implicit::shading(&**level, isa, &self.own, h)
+impl<'a> PacketQuery<'a> {
+    /// `nearest` as the receiver of this query's crossings.
+    pub(crate) fn first<'n>(&self, nearest: &'n mut Nearest) -> First<'n> {
+        First { nearest, number: self.number }
     }
 }

@@ -22,26 +22,26 @@ type N = EFloat<Dd>;
 
 /// The three functions before rounding, times one common number.
 #[derive(Clone, Debug)]
-pub(super) struct OwnSketch {
+pub(crate) struct OwnSketch {
     axes: [Form<N>; 3],
     gain: N,
 }
 
 /// The three functions in f64.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Own {
+pub(crate) struct Own {
     rows: [Vec3; 3],
     c: [f64; 3],
     k_b: f64,
     k_c: f64,
     /// An upper bound of the norm of the matrix of the rows.
-    pub(super) norm: f64,
+    pub(crate) norm: f64,
 }
 
 impl OwnSketch {
     /// Coordinates in units of `2^scale` about `origin`, with the axes in this order, for points
     /// counted from `centre`.
-    pub(super) fn new(centre: Point3, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
+    pub(crate) fn new(centre: Point3, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
         let zero = || N::exact(0.0);
         let axes = order.map(|axis| {
             let mut n = [zero(), zero(), zero()];
@@ -54,12 +54,12 @@ impl OwnSketch {
 
     /// The coordinates of a surface moved by a map with this determinant. `moved` maps planes and
     /// multiplies them by the determinant.
-    pub(super) fn moved(self, det: N, moved: impl Fn(Form<N>) -> Form<N>) -> Self {
+    pub(crate) fn moved(self, det: N, moved: impl Fn(Form<N>) -> Form<N>) -> Self {
         Self { axes: self.axes.map(moved), gain: self.gain * det }
     }
 
     /// The rounded coordinates; `None` if the numbers are too large for f64 packets.
-    pub(super) fn round(&self) -> Option<Own> {
+    pub(crate) fn round(&self) -> Option<Own> {
         let (mut largest, mut e_b, mut big_c, mut e_c) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let round = |x: N, largest: &mut f64, error: &mut f64| {
             let x = x / self.gain;
@@ -96,7 +96,7 @@ impl OwnSketch {
 impl Own {
     /// The coordinates of points.
     #[inline(always)]
-    pub(super) fn point(&self, h: Vec3<F8>) -> Vec3<F8> {
+    pub(crate) fn point(&self, h: Vec3<F8>) -> Vec3<F8> {
         let [x, y, z] = Vec3::splats(self.rows);
         let [a, b, c] = F8::splats(self.c);
         Vec3::new(plus(x, h, a), plus(y, h, b), plus(z, h, c))
@@ -104,14 +104,14 @@ impl Own {
 
     /// The coordinates of directions.
     #[inline(always)]
-    pub(super) fn vector(&self, d: Vec3<F8>) -> Vec3<F8> {
+    pub(crate) fn vector(&self, d: Vec3<F8>) -> Vec3<F8> {
         let [x, y, z] = Vec3::splats(self.rows);
         Vec3::new(dot(x, d), dot(y, d), dot(z, d))
     }
 
     /// The covector in the filter's coordinates that corresponds to one in these coordinates.
     #[inline(always)]
-    pub(super) fn covector(&self, g: Vec3<F8>) -> Vec3<F8> {
+    pub(crate) fn covector(&self, g: Vec3<F8>) -> Vec3<F8> {
         let [x, y, z] = Vec3::splats(self.rows);
         Vec3::new(
             x.x.mul_add(g.x, y.x.mul_add(g.y, z.x * g.z)),
@@ -122,25 +122,25 @@ impl Own {
 
     /// A bound on the error of the coordinates of points with this `|h|₁`.
     #[inline(always)]
-    pub(super) fn point_error(&self, h1: F8) -> F8 {
+    pub(crate) fn point_error(&self, h1: F8) -> F8 {
         h1 * self.k_b + self.k_c
     }
 
     /// A bound on the error of the coordinates of directions with this `|d|₁`.
     #[inline(always)]
-    pub(super) fn vector_error(&self, d1: F8) -> F8 {
+    pub(crate) fn vector_error(&self, d1: F8) -> F8 {
         d1 * self.k_b
     }
 }
 
 #[inline(always)]
-pub(super) fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
+pub(crate) fn dot(a: Vec3<F8>, b: Vec3<F8>) -> F8 {
     a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
 }
 
 /// `o + t d`.
 #[inline(always)]
-pub(super) fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
+pub(crate) fn on(o: Vec3<F8>, t: F8, d: Vec3<F8>) -> Vec3<F8> {
     Vec3::new(t.mul_add(d.x, o.x), t.mul_add(d.y, o.y), t.mul_add(d.z, o.z))
 }
 

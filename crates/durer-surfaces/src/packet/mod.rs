@@ -11,37 +11,32 @@
 //!   source.rs           polynomials in double-double, moved by maps (built once)
 //!   quadric.rs          the polynomials in f64, with bounds on their errors
 //!   quadratic_roots.rs  where eight rays cross a face of degree two
-//!   kernel.rs           the kernels for surfaces that are not faces of degree two:
-//!     revolution/         surfaces of revolution of higher degree
-//!     polynomial/         zero sets of polynomials
-//!     blob/               blobs
+//!   kernel.rs           the trait of kernels for surfaces that are not faces of degree two:
 //!     implicit/           solids known segment by segment (formulas, Julia sets, superellipsoids)
-//!     prism/              walls and caps of curved prisms; prism_solid.rs, whole prisms
+//!     (beside their surfaces: ../revolution/packet, ../prism/packet, ../blob/packet,
+//!      ../algebraic/packet)
 //!     local_frame.rs      rays in the surface's own coordinates
 //!     polynomial_roots.rs roots of one polynomial for each of eight rays
+//!     skin.rs             values, gradients and their errors at points of a surface
 //!   closest.rs          which face each ray meets first (convex.rs for convex solids)
 //!   crossings.rs        all crossings with a solid, for CSG
 //!   resolve.rs          hit points, and how far spawned rays start from them
 //! ```
 
-mod blob;
-mod closest;
-mod convex;
-mod crossings;
+pub(crate) mod closest;
+pub(crate) mod convex;
+pub(crate) mod crossings;
 mod implicit;
-mod kernel;
-mod local_frame;
+pub(crate) mod kernel;
+pub(crate) mod local_frame;
 mod loops;
-mod polynomial;
-mod polynomial_roots;
-mod prism;
-mod prism_solid;
-mod quadratic_roots;
-mod quadric;
-mod rays;
+pub(crate) mod polynomial_roots;
+pub(crate) mod quadratic_roots;
+pub(crate) mod quadric;
+pub(crate) mod rays;
 mod resolve;
-mod revolution;
-mod sink;
+pub(crate) mod sink;
+pub(crate) mod skin;
 mod source;
 
 pub use self::closest::{PacketQuery, Scratch};
@@ -50,16 +45,12 @@ pub use self::rays::{From8, Nearest, RayLanes};
 pub use self::resolve::Points8;
 pub use self::source::FilterSource;
 
-pub(crate) use self::blob::{Field, Fields};
-pub(crate) use self::implicit::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Value8};
+pub(crate) use self::implicit::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Segments, Value8};
 use self::kernel::Detail;
-pub(crate) use self::kernel::PacketKernel;
 pub(crate) use self::local_frame::largest;
 use self::loops::Loops;
-pub(crate) use self::polynomial::Terms;
-pub(crate) use self::prism::{ProfileCurve8, Sweep8, Swept};
 use self::quadric::QuadricFace8;
-pub(crate) use self::revolution::{RevolutionKernel, RevolutionWall, Skin, Slant};
+pub(crate) use self::skin::{Skin, Slant};
 use durer_math::{Point3, Vec3};
 
 /// The packet filter of one surface, for eight rays at a time. [`FilterSource::build`] makes it.
@@ -100,7 +91,7 @@ impl PacketFilter {
     #[inline(always)]
     pub fn face_of(&self, face: u32) -> u32 {
         match &self.detail {
-            Some(detail) => detail.face_of(face),
+            Some(detail) => detail.kernel.face_of(face),
             None => self.own_face.unwrap_or(face),
         }
     }

@@ -20,39 +20,39 @@ use durer_math::{F8, Isa, M8};
 
 /// Eight polynomials with `N` coefficients, the constant first.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Poly8<const N: usize> {
-    pub(super) c: [F8; N],
+pub(crate) struct Poly8<const N: usize> {
+    pub(crate) c: [F8; N],
     /// Error bounds: of all values, and of the values at the ends.
-    pub(super) e: F8,
-    pub(super) e_first: F8,
-    pub(super) e_last: F8,
+    pub(crate) e: F8,
+    pub(crate) e_first: F8,
+    pub(crate) e_last: F8,
 }
 
 /// For each polynomial, a part of `[0, 1]` and its classification.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Part8 {
+pub(crate) struct Part8 {
     /// Lanes whose part is not yet classified.
-    pub(super) open: M8,
+    pub(crate) open: M8,
     /// The part's start. Everything before it is classified, and the sign there is certain.
-    pub(super) l: F8,
-    pub(super) r: F8,
+    pub(crate) l: F8,
+    pub(crate) r: F8,
     /// The end of the range to be classified.
-    pub(super) end: F8,
+    pub(crate) end: F8,
     /// The sign at the part's start: 1 or -1.
-    pub(super) sign: F8,
+    pub(crate) sign: F8,
     /// Lanes with exactly one root in the part, and certain signs at its ends.
-    pub(super) one: M8,
+    pub(crate) one: M8,
     /// Lanes that cannot be classified from `l` on.
-    pub(super) unsure: M8,
+    pub(crate) unsure: M8,
 }
 
 /// One root for each polynomial.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Root8 {
+pub(crate) struct Root8 {
     /// Lanes whose root is certainly within `e` of `x`.
-    pub(super) sure: M8,
-    pub(super) x: F8,
-    pub(super) e: F8,
+    pub(crate) sure: M8,
+    pub(crate) x: F8,
+    pub(crate) e: F8,
 }
 
 /// After this many parts the rest becomes a doubt: a single ray then costs as much as hundreds of
@@ -127,33 +127,33 @@ impl<const N: usize> Poly8<N> {
 
     /// The signs at both ends: 1, -1, or 0 where the sign is uncertain.
     #[inline(always)]
-    pub(super) fn ends(&self) -> (F8, F8) {
+    pub(crate) fn ends(&self) -> (F8, F8) {
         (certain(self.c[0], self.e_first), certain(self.at(F8::ONE), self.e_last))
     }
 
     /// Begins with all of `[0, 1]` for the lanes in `live`.
     #[inline(always)]
-    pub(super) fn begin(&self, live: M8, part: &mut Part8) {
+    pub(crate) fn begin(&self, live: M8, part: &mut Part8) {
         self.begin_with(live, F8::ZERO, part);
     }
 
     /// Begins where the sign at the start is known from elsewhere: 1 or -1, or 0 if it is unknown.
     #[inline(always)]
-    pub(super) fn begin_with(&self, live: M8, known: F8, part: &mut Part8) {
+    pub(crate) fn begin_with(&self, live: M8, known: F8, part: &mut Part8) {
         let sign = certain(self.c[0], self.e_first);
         self.go(live, (F8::ZERO, F8::ONE), known.equals(F8::ZERO).select(sign, known), part);
     }
 
     /// Begins where all Bernstein coefficients are known within `e`.
     #[inline(always)]
-    pub(super) fn begin_at(&self, live: M8, b: &[F8; N], part: &mut Part8) {
+    pub(crate) fn begin_at(&self, live: M8, b: &[F8; N], part: &mut Part8) {
         self.begin(live, part);
         self.classify(b, part);
     }
 
     /// Begins with the part between two places other than 0 and 1.
     #[inline(always)]
-    pub(super) fn begin_within(&self, live: M8, (l, end): (F8, F8), known: F8, part: &mut Part8) {
+    pub(crate) fn begin_within(&self, live: M8, (l, end): (F8, F8), known: F8, part: &mut Part8) {
         let sign = certain(self.at(l), self.e);
         self.go(live, (l, end), known.equals(F8::ZERO).select(sign, known), part);
     }
@@ -169,7 +169,7 @@ impl<const N: usize> Poly8<N> {
 
     /// Continues after the root in the part.
     #[inline(always)]
-    pub(super) fn go_on(&self, part: &mut Part8) {
+    pub(crate) fn go_on(&self, part: &mut Part8) {
         part.sign.set_where(part.one, -part.sign);
         part.open = part.one & part.r.lt(part.end);
         part.l.set_where(part.open, part.r);
@@ -179,7 +179,7 @@ impl<const N: usize> Poly8<N> {
 
     /// Shortens the part until each lane either has one root in it or none at all.
     #[inline(never)]
-    pub(super) fn isolate(&self, isa: Isa, part: &mut Part8) {
+    pub(crate) fn isolate(&self, isa: Isa, part: &mut Part8) {
         isa.run_in_lanes(
             #[inline(always)]
             || self.isolate_here(part),
@@ -251,7 +251,7 @@ impl<const N: usize> Poly8<N> {
 
     /// The root in the part of each lane that has one.
     #[inline(never)]
-    pub(super) fn refine(&self, isa: Isa, part: &Part8, root: &mut Root8) {
+    pub(crate) fn refine(&self, isa: Isa, part: &Part8, root: &mut Root8) {
         isa.run_in_lanes(
             #[inline(always)]
             || self.refine_here(part, root),

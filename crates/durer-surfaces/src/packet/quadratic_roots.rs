@@ -71,7 +71,7 @@ impl Leaving<'_> {
 /// `c / slope` with a bound on its error, if `c` is within `e_c` and the slope within `e_slope`;
 /// `inverse` is one over the slope, rounded.
 #[inline(always)]
-pub(super) fn quotient(c: F8, e_c: F8, inverse: F8, e_slope: F8) -> (F8, F8) {
+pub(crate) fn quotient(c: F8, e_c: F8, inverse: F8, e_slope: F8) -> (F8, F8) {
     let t = c * inverse;
     let far = t.abs();
     // Two roundings, and the greatest difference to the exact quotient: `(e_c + |t| e_slope) /

@@ -27,8 +27,8 @@ const TINY: f64 = durer_math::scale::pow2(-550);
 
 /// A face in f64.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct QuadricFace8 {
-    pub(super) kind: FaceKind,
+pub(crate) struct QuadricFace8 {
+    pub(crate) kind: FaceKind,
     /// `xx, yy, zz, xy, xz, yz`.
     q: [f64; 6],
     b: [f64; 3],
@@ -41,12 +41,12 @@ pub(super) struct QuadricFace8 {
     /// The error of the entries of `b` alone.
     e_b: f64,
     /// An upper bound of the norm of the Hessian `2 Q`.
-    pub(super) bend: f64,
+    pub(crate) bend: f64,
 }
 
 /// Which terms a form has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FaceKind {
+pub(crate) enum FaceKind {
     /// No `Q`.
     Plane,
     /// `Q` is a multiple of the identity, and `b` is zero.
@@ -57,32 +57,32 @@ pub(super) enum FaceKind {
 
 /// `A t² + 2 B t + C` along eight rays, with bounds on the errors.
 #[derive(Clone, Copy)]
-pub(super) struct Quadratic8 {
-    pub(super) a: F8,
-    pub(super) b: F8,
-    pub(super) c: F8,
-    pub(super) e_a: F8,
-    pub(super) e_b: F8,
-    pub(super) e_c: F8,
+pub(crate) struct Quadratic8 {
+    pub(crate) a: F8,
+    pub(crate) b: F8,
+    pub(crate) c: F8,
+    pub(crate) e_a: F8,
+    pub(crate) e_b: F8,
+    pub(crate) e_c: F8,
 }
 
 /// Eight rays relative to the filter's centre.
 #[derive(Clone, Copy)]
-pub(super) struct Seen<'a> {
-    pub(super) d: &'a Vec3<F8>,
+pub(crate) struct Seen<'a> {
+    pub(crate) d: &'a Vec3<F8>,
     /// `|d|₁`.
-    pub(super) d1: &'a F8,
-    pub(super) start: &'a Start,
+    pub(crate) d1: &'a F8,
+    pub(crate) start: &'a Start,
 }
 
 /// The starts of eight rays relative to the filter's centre.
 #[derive(Debug)]
-pub(super) struct Start {
-    pub(super) h: Vec3<F8>,
+pub(crate) struct Start {
+    pub(crate) h: Vec3<F8>,
     /// `|h|₁`.
-    pub(super) h1: F8,
+    pub(crate) h1: F8,
     /// A bound on every `t` at which a ray can meet the surface.
-    pub(super) far: F8,
+    pub(crate) far: F8,
 }
 
 impl Default for Start {
@@ -93,7 +93,7 @@ impl Default for Start {
 
 /// The sum of absolute values, rounded.
 #[inline(always)]
-pub(super) fn taxicab(v: Vec3<F8>) -> F8 {
+pub(crate) fn taxicab(v: Vec3<F8>) -> F8 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
@@ -111,7 +111,7 @@ fn dot8(a: Vec3<F8>, v: Vec3<F8>) -> F8 {
 
 impl QuadricFace8 {
     /// Rounds a form; `None` if its numbers are too large or too small for f64 packets.
-    pub(super) fn new(form: &Form<EFloat<Dd>>) -> Option<Self> {
+    pub(crate) fn new(form: &Form<EFloat<Dd>>) -> Option<Self> {
         let most = |part: &[EFloat<Dd>]| part.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
         // In this range products of coefficients, squares of coordinates and their errors stay
         // normal numbers.
@@ -173,7 +173,7 @@ impl QuadricFace8 {
     /// The error of `B` is computed coefficient by coefficient, so a ray parallel to the plane has
     /// exactly `B = 0`.
     #[inline(always)]
-    pub(super) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8) {
+    pub(crate) fn slope(&self, rays: &Seen<'_>) -> (F8, F8, F8) {
         let b = dot(self.b, *rays.d);
         let size = dot(self.b.map(f64::abs), rays.d.abs());
         let e_b = size * (8.0 * U) + *rays.d1 * self.e_b;
@@ -183,31 +183,31 @@ impl QuadricFace8 {
 
     /// The constant, and a bound on the error of `C` along eight rays, of a plane.
     #[inline(always)]
-    pub(super) fn height(&self, rays: &Seen<'_>) -> (f64, F8) {
+    pub(crate) fn height(&self, rays: &Seen<'_>) -> (f64, F8) {
         (self.c, rays.start.h1 * (2.0 * self.k_b) + self.k_c)
     }
 
     /// A lower bound of `|b·d|` along eight rays; not positive if there is none.
     #[inline(always)]
-    pub(super) fn slope_at_least(&self, rays: &Seen<'_>) -> F8 {
+    pub(crate) fn slope_at_least(&self, rays: &Seen<'_>) -> F8 {
         let (b, e_b, _) = self.slope(rays);
         b.abs() - e_b * (1.0 + 4.0 * U)
     }
 
     /// An upper bound of `|b|₁`.
-    pub(super) fn b1(&self) -> f64 {
+    pub(crate) fn b1(&self) -> f64 {
         (self.b.iter().map(|b| b.abs()).sum::<f64>() + 3.0 * self.e_b) * (1.0 + 8.0 * U)
     }
 
     /// Whether two faces are parallel planes with opposite normals.
-    pub(super) fn is_opposite(&self, other: &Self) -> bool {
+    pub(crate) fn is_opposite(&self, other: &Self) -> bool {
         let planes = self.kind == FaceKind::Plane && other.kind == FaceKind::Plane;
         planes && (0..3).all(|i| self.b[i] == -other.b[i]) && self.e_b == other.e_b
     }
 
     /// The polynomial along eight rays.
     #[inline(always)]
-    pub(super) fn along(&self, rays: &Seen<'_>) -> Quadratic8 {
+    pub(crate) fn along(&self, rays: &Seen<'_>) -> Quadratic8 {
         let (h, h1, d, d1) = (rays.start.h, rays.start.h1, *rays.d, *rays.d1);
         let e_a = d1 * d1 * self.k_q;
         if self.kind == FaceKind::Ball {
@@ -239,7 +239,7 @@ impl QuadricFace8 {
     /// `f` at points `y`, with a bound on the error if these are within `e1` (in the sum of
     /// absolute values) of the exact ones; `y1` is `|y|₁`.
     #[inline(always)]
-    pub(super) fn at(&self, y: Vec3<F8>, y1: F8, e1: F8) -> (F8, F8) {
+    pub(crate) fn at(&self, y: Vec3<F8>, y1: F8, e1: F8) -> (F8, F8) {
         let (m, big) = self.largest;
         if self.kind == FaceKind::Plane {
             let f = dot(self.b, y) * 2.0 + self.c;
@@ -253,13 +253,13 @@ impl QuadricFace8 {
 
     /// A bound on the error of each entry of half the gradient at points with this `|y|₁`.
     #[inline(always)]
-    pub(super) fn gradient_error(&self, y1: F8) -> F8 {
+    pub(crate) fn gradient_error(&self, y1: F8) -> F8 {
         y1 * self.k_q + self.k_b
     }
 
     /// `f` and half its gradient.
     #[inline(always)]
-    pub(super) fn value_and_half_gradient(&self, y: Vec3<F8>) -> (F8, Vec3<F8>) {
+    pub(crate) fn value_and_half_gradient(&self, y: Vec3<F8>) -> (F8, Vec3<F8>) {
         let linear = Vec3::splat(Vec3::from(self.b));
         if self.kind == FaceKind::Plane {
             return (dot(self.b, y) * 2.0 + self.c, linear);

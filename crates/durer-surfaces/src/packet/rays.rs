@@ -10,15 +10,15 @@ use durer_math::{F8, Isa, M8, Point3, U, Vec3};
 /// Eight rays `o + t d`, `t` in `[0, t_max]`, as packet filters use them.
 #[derive(Clone, Copy, Debug)]
 pub struct RayLanes<'a> {
-    pub(super) isa: Isa,
-    pub(super) origin: &'a Point3<F8>,
-    pub(super) direction: &'a Vec3<F8>,
-    pub(super) t_max: &'a F8,
-    pub(super) live: &'a M8,
+    pub(crate) isa: Isa,
+    pub(crate) origin: &'a Point3<F8>,
+    pub(crate) direction: &'a Vec3<F8>,
+    pub(crate) t_max: &'a F8,
+    pub(crate) live: &'a M8,
     /// `|d|₁`, one over it, and `d·d`.
-    pub(super) d1: F8,
-    pub(super) inverse_d1: F8,
-    pub(super) d2: F8,
+    pub(crate) d1: F8,
+    pub(crate) inverse_d1: F8,
+    pub(crate) d2: F8,
 }
 
 /// Rays that start on the very surface under test.
@@ -36,7 +36,7 @@ impl From8 {
     /// The side of a solid on which the rays start: -1 inside, 1 outside, 0 for rays that start
     /// elsewhere. The solid is negative inside, or the complement of that set if `turned`.
     #[inline(always)]
-    pub(super) fn side(&self, turned: bool) -> F8 {
+    pub(crate) fn side(&self, turned: bool) -> F8 {
         let inside = if turned { !self.back } else { self.back };
         self.lanes.keep(inside.select(F8::splat(-1.0), F8::ONE))
     }
@@ -59,15 +59,15 @@ pub struct Nearest {
     pub doubt: F8,
 }
 
-pub(super) const NEVER: F8 = F8::splat(f64::INFINITY);
+pub(crate) const NEVER: F8 = F8::splat(f64::INFINITY);
 /// Covers the roundings of error bounds.
-pub(super) const SLACK: f64 = 1.0 + 64.0 * U;
+pub(crate) const SLACK: f64 = 1.0 + 64.0 * U;
 /// A divisor is used only if it is this many times its error.
-pub(super) const CLEAR: f64 = 4.0;
+pub(crate) const CLEAR: f64 = 4.0;
 /// A parameter certainly before the start of a ray.
-pub(super) const BEHIND: f64 = -f64::MIN_POSITIVE;
+pub(crate) const BEHIND: f64 = -f64::MIN_POSITIVE;
 /// Farther than any crossing; its products with ordinary numbers are ordinary.
-pub(super) const FAR: f64 = durer_math::scale::pow2(500);
+pub(crate) const FAR: f64 = durer_math::scale::pow2(500);
 
 /// Directions are shorter than this and longer than its inverse; other products could leave the
 /// range in which the error bounds hold. A face adds what its own products with these may lose to
@@ -115,7 +115,7 @@ impl Nearest {
 
     /// Records a doubt for those live rays of which none of these is known.
     #[inline(always)]
-    pub(super) fn doubt_unless(&mut self, live: &M8, known: &[&M8]) {
+    pub(crate) fn doubt_unless(&mut self, live: &M8, known: &[&M8]) {
         let unsure = known.iter().fold(*live, |unsure, known| unsure & !**known);
         if unsure.any() {
             self.doubt_from(unsure, F8::ZERO);

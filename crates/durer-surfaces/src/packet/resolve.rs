@@ -1,9 +1,10 @@
 //! Hit points of eight rays, and how far spawned rays start from them.
 
+use super::kernel::FacePoints;
 use super::local_frame::dot;
 use super::quadric::{FaceKind, taxicab};
 use super::rays::{NEVER, RayLanes, SLACK};
-use super::revolution::{Skin, Slant};
+use super::skin::{Skin, Slant};
 use super::{PacketFilter, quadric};
 use durer_math::{F8, M8, Point3, U, Vec3};
 
@@ -65,18 +66,30 @@ impl PacketFilter {
         if let Some(detail) = &self.detail
             && (i == 0 || first == 0)
         {
+            let at = |h| FacePoints { face: i, tag, h, h1: taxicab(h) * SLACK };
             return self.put_points(
                 rays,
                 (t, lanes),
                 to,
                 #[inline(always)]
-                |y| detail.slant(rays.isa, (i, tag), y, taxicab(y) * SLACK),
+                |y| {
+                    let mut slant = Slant { f: F8::ZERO, half: y };
+                    detail.kernel.slant(rays.isa, &detail.own, &at(y), &mut slant);
+                    slant
+                },
                 #[inline(always)]
-                |y| detail.skin(rays.isa, (i, tag), y, taxicab(y) * SLACK),
+                |y| {
+                    let mut skin = Skin::NONE;
+                    detail.kernel.skin(rays.isa, &detail.own, &at(y), &mut skin);
+                    skin
+                },
                 #[inline(always)]
-                |y, ng| match detail.shading(rays.isa, y) {
-                    Some(g) => shaded_by(g, ng, self.turned),
-                    None => ng,
+                |y, ng| {
+                    let mut g = y;
+                    match detail.kernel.shading(rays.isa, &detail.own, &mut g) {
+                        true => shaded_by(g, ng, self.turned),
+                        false => ng,
+                    }
                 },
             );
         }

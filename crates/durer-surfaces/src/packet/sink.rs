@@ -5,7 +5,7 @@ use super::rays::{Nearest, RayLanes};
 use durer_math::{F8, M8};
 
 /// A receiver of the crossings of eight rays.
-pub(super) trait Sink8 {
+pub(crate) trait Sink8 {
     /// Whether all crossings are wanted, not only the first ones.
     const ALL: bool;
     /// The parameter beyond which crossings do not matter.
@@ -19,9 +19,9 @@ pub(super) trait Sink8 {
 }
 
 /// The first crossings, under the number of a filter.
-pub(super) struct First<'n> {
-    pub(super) nearest: &'n mut Nearest,
-    pub(super) number: f64,
+pub(crate) struct First<'n> {
+    pub(crate) nearest: &'n mut Nearest,
+    pub(crate) number: f64,
 }
 
 impl Sink8 for First<'_> {

@@ -1,11 +1,8 @@
 //! From a surface's own numbers to a packet filter.
 
-use super::blob::Fields;
-use super::implicit::ImplicitKernel;
+use super::implicit::Segments;
 use super::kernel::{DetailSketch, PacketKernel};
 use super::loops::{Edge, Loops, Off};
-use super::prism::Swept;
-use super::revolution::RevolutionKernel;
 use super::{PacketFilter, QuadricFace8};
 use crate::FillRule;
 use crate::quadric::boolean_faces::QuadricFaces;
@@ -258,58 +255,31 @@ impl FilterSource {
         Self { vague: Some(bounds), ..Self::axis_box(bounds.min, bounds.max) }
     }
 
-    /// A surface of revolution within a box, in units of `2^scale` about `origin`, around the
-    /// second of its coordinate axes.
-    pub(crate) fn lathe(
+    /// A surface within a box, with a kernel in units of `2^scale` about `origin`, whose axes are
+    /// the world's in this order.
+    pub(crate) fn kernel(
         bounds: Aabb,
-        lathe: RevolutionKernel,
+        kernel: impl PacketKernel + 'static,
         origin: Point3,
         scale: i32,
         order: [usize; 3],
     ) -> Self {
         let vague = Self::vague(bounds);
-        let detail = Some(DetailSketch::new(
-            PacketKernel::Revolution(Arc::new(lathe)),
-            vague.centre,
-            origin,
-            scale,
-            order,
-        ));
-        Self { detail, ..vague }
-    }
-
-    /// A part of a prism within a box, in units of `2^scale` about `origin`.
-    pub(crate) fn swept(bounds: Aabb, part: Swept, origin: Point3, scale: i32) -> Self {
-        let vague = Self::vague(bounds);
-        let shape = PacketKernel::Swept(Arc::new(part));
-        Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
-    }
-
-    /// A blob within a box, in units of `2^scale` about `origin`.
-    pub(crate) fn fields(bounds: Aabb, fields: Fields, origin: Point3, scale: i32) -> Self {
-        let vague = Self::vague(bounds);
-        let shape = PacketKernel::Fields(Arc::new(fields));
-        Self { detail: Some(DetailSketch::new(shape, vague.centre, origin, scale, [0, 1, 2])), ..vague }
-    }
-
-    /// A solid within a box that is classified segment by segment, about `origin`.
-    pub(crate) fn level(bounds: Aabb, level: Arc<dyn ImplicitKernel>, origin: Point3) -> Self {
-        let vague = Self::vague(bounds);
-        let detail = DetailSketch::new(PacketKernel::Level(level), vague.centre, origin, 0, [0, 1, 2]);
+        let detail = DetailSketch::new(Arc::new(kernel), vague.centre, origin, scale, order);
         Self { detail: Some(detail), ..vague }
     }
 
-    /// The part of such a solid in a convex container, whose faces are numbered after its own,
-    /// about `origin`.
-    pub(crate) fn contained(container: Self, level: Arc<dyn ImplicitKernel>, origin: Point3) -> Self {
-        let detail = DetailSketch::new(PacketKernel::Level(level), container.centre, origin, 0, [0, 1, 2]);
+    /// The part of a solid in a convex container, whose faces are numbered after its own, about
+    /// `origin`.
+    pub(crate) fn contained(container: Self, kernel: Segments, origin: Point3) -> Self {
+        let detail = DetailSketch::new(Arc::new(kernel), container.centre, origin, 0, [0, 1, 2]);
         Self { vague: Some(container.bounds()), detail: Some(detail), ..container }
     }
 
-    /// The zero set of a polynomial in units of `2^scale`.
-    pub(crate) fn algebraic(terms: PacketKernel, scale: i32) -> Self {
+    /// An unbounded surface with a kernel in units of `2^scale`.
+    pub(crate) fn unbounded(kernel: impl PacketKernel + 'static, scale: i32) -> Self {
         let o = Point3::ORIGIN;
-        let detail = Some(DetailSketch::new(terms, o, o, scale, [0, 1, 2]));
+        let detail = Some(DetailSketch::new(Arc::new(kernel), o, o, scale, [0, 1, 2]));
         let endless = Self::new(o, Vec::new(), 0, f64::INFINITY);
         Self { convex: true, vague: Some(Aabb::UNBOUNDED), detail, ..endless }
     }
@@ -425,7 +395,7 @@ impl FilterSource {
     /// The part of the surface inside the region where all faces of `region` are negative.
     #[must_use]
     pub(crate) fn within(mut self, region: Self) -> Self {
-        if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
+        if self.detail.as_ref().is_some_and(DetailSketch::is_unbounded) {
             return if region.convex { self.within_convex(region) } else { Self::vague(Aabb::UNBOUNDED) };
         }
         if self.vague.is_some() {
@@ -459,7 +429,7 @@ impl FilterSource {
     /// The part of the surface outside the region where all faces of `region` are negative.
     #[must_use]
     pub(crate) fn without(mut self, region: Self) -> Self {
-        if self.detail.as_ref().is_some_and(DetailSketch::is_endless) {
+        if self.detail.as_ref().is_some_and(DetailSketch::is_unbounded) {
             return Self::vague(Aabb::UNBOUNDED);
         }
         if self.vague.is_some() {

@@ -20,15 +20,17 @@
 
 pub mod curved;
 mod outline;
+mod packet;
 mod straight_path;
 
 pub use straight_path::{StraightPath, StraightPathError};
 
+use self::packet::{ProfileCurve8, Sweep8, Swept};
 use crate::compose::clip::Algebraic;
 use crate::edges::EdgeFilter;
 use crate::facet::{self, Facet, Varying};
 use crate::mesh::{Sorted, may_hold};
-use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
+use crate::packet::FilterSource;
 use crate::planar::{self, AlongRay, Crossing, Line, PlaneForm, PointLine, Probe, ThreePoints};
 use crate::{
     Accelerate, FillRule, LocalPoint, LocalRay, Need, PartId, Polygon, PolygonError, RingRay, Root, Side,
@@ -308,7 +310,13 @@ impl Prism {
         let left = (!self.tangled).then(|| vec![true; curves.len()].into());
         let [low, high] = [low, high].map(|y| scale2(y - centre.y, -scale));
         let sweep = Sweep8 { conic, low, high };
-        Some(FilterSource::swept(self.bounds, Swept::Whole { curves, sweep, left }, centre, scale))
+        Some(FilterSource::kernel(
+            self.bounds,
+            Swept::Whole { curves, sweep, left },
+            centre,
+            scale,
+            [0, 1, 2],
+        ))
     }
 
     /// Calls `f` for every crossing of the line with a face, in no order: the crossing, its plane,

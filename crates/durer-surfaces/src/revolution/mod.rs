@@ -18,10 +18,12 @@
 
 pub mod lathe;
 pub(crate) mod level;
+pub(crate) mod packet;
 mod profile;
 mod profile_piece;
 
-use crate::packet::{FilterSource, RevolutionKernel};
+use self::packet::RevolutionKernel;
+use crate::packet::FilterSource;
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::polynomial_surface;
 use crate::quadric::boolean_faces::Frame;
@@ -508,7 +510,7 @@ impl Accelerate for SurfaceOfRevolution {
         match walls {
             Some(walls) => {
                 let lathe = RevolutionKernel::new(&walls, !self.open);
-                FilterSource::lathe(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
+                FilterSource::kernel(self.bounds, lathe, self.frame.centre, self.frame.scale, [0, 1, 2])
             }
             None => FilterSource::vague(self.bounds),
         }

@@ -1,7 +1,7 @@
 //! The walls that enclose a solid of revolution between two of its heights.
 
+use super::packet::RevolutionWall;
 use super::profile::{Cubic, Spindle};
-use crate::packet::RevolutionWall;
 use crate::planar::{AlongRay, Line, PointLine, Probe};
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::Frame;

@@ -26,10 +26,15 @@ mod rays;
 
 pub(super) use self::compaction::Stream;
 
+use super::closest::PacketQuery;
+use super::crossings::Crossings;
+use super::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
 use super::local_frame::{Own, largest};
-use super::rays::SLACK;
-use super::revolution::{Skin, Slant};
+use super::rays::{Nearest, SLACK};
+use super::skin::{Skin, Slant};
+use core::slice;
 use durer_math::{F8, Isa, M8, U, Vec3};
+use std::sync::Arc;
 
 /// Eight lines `o + s d` in the solid's own coordinates, relative to their closest approach to its
 /// centre.
@@ -137,47 +142,89 @@ pub(crate) trait ImplicitKernel: core::fmt::Debug + Send + Sync {
     }
 }
 
-impl Skin {
-    const NONE: Self = Self {
-        f: F8::ZERO,
-        half: Vec3::splat(Vec3::ZERO),
-        e_f: F8::ZERO,
-        e_half: F8::ZERO,
-        bend: F8::ZERO,
-        room: F8::ZERO,
-    };
-}
+/// A solid that is classified segment by segment, as a packet kernel.
+#[derive(Clone, Debug)]
+pub(crate) struct Segments(pub(crate) Arc<dyn ImplicitKernel>);
 
-/// The value and half the gradient at points `h`, rounded.
-#[inline(always)]
-pub(super) fn slant(level: &dyn ImplicitKernel, isa: Isa, own: &Own, h: Vec3<F8>) -> Slant {
-    let mut slant = Slant { f: F8::ZERO, half: h };
-    level.slant(isa, &own.point(h), &mut slant);
-    Slant { half: own.covector(slant.half), ..slant }
-}
+impl PacketKernel for Segments {
+    fn face_of(&self, number: u32) -> u32 {
+        number
+    }
 
-/// `g` and half its gradient at points `h` of the surface, with `|h|₁`.
-#[inline(always)]
-pub(super) fn skin(level: &dyn ImplicitKernel, isa: Isa, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
-    let y = own.point(h);
-    // For rays that start there, the kernel begins at a place that may be this far from the start
-    // (`rays.rs`).
-    let e = own.point_error(h1) + (largest(y) + level.reach()) * (128.0 * U);
-    let mut skin = Skin::NONE;
-    level.skin(isa, (&y, &e), &mut skin);
-    let Skin { f, half, e_f, e_half, bend, room } = skin;
-    let e_half = (e_half + largest(half) * (16.0 * U)) * own.norm;
-    let bend = bend * (own.norm * own.norm * SLACK);
-    // Doubled, so that rays that start there are certain of their side.
-    Skin { f, half: own.covector(half), e_f: e_f * 2.0, e_half, bend, room: room * (1.0 / own.norm) }
-}
+    fn is_contained(&self) -> bool {
+        self.0.ends().0 != Ends::Free
+    }
 
-/// The covectors for shading at points `h`, if they differ from the surface's own.
-#[inline(always)]
-pub(super) fn shading(level: &dyn ImplicitKernel, isa: Isa, own: &Own, h: Vec3<F8>) -> Option<Vec3<F8>> {
-    let y = own.point(h);
-    let mut g = y;
-    level.shading(isa, &y, &mut g).then(|| own.covector(g))
+    fn is_operand(&self) -> bool {
+        false
+    }
+
+    fn segments(&self) -> Option<&dyn ImplicitKernel> {
+        Some(&*self.0)
+    }
+
+    fn first(
+        &self,
+        &KernelRays { own, leaving, start, cell, .. }: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    ) {
+        let stream: &mut Stream = scratch.of();
+        let turned = leaving.is_some_and(|(_, turned)| turned);
+        stream.clear();
+        stream.add(0, (&*self.0, own, turned), query, (start, cell), nearest);
+        stream.meet(&*self.0, slice::from_ref(query), slice::from_mut(nearest));
+    }
+
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, _scratch: &mut KernelScratch) {
+        to.doubt_from(*seen.rays.live, F8::ZERO);
+    }
+
+    fn holds(&self, _: &KernelRays<'_>, _: (F8, F8), _: u8, _: &mut KernelScratch) -> (u8, u8) {
+        (0, 0)
+    }
+
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let y = own.point(at.h);
+                // For rays that start there, the kernel begins at a place that may be this far from
+                // the start (`rays.rs`).
+                let e = own.point_error(at.h1) + (largest(y) + self.0.reach()) * (128.0 * U);
+                self.0.skin(isa, (&y, &e), to);
+                let e_half = (to.e_half + largest(to.half) * (16.0 * U)) * own.norm;
+                let bend = to.bend * (own.norm * own.norm * SLACK);
+                // Doubled, so that rays that start there are certain of their side.
+                let e_f = to.e_f * 2.0;
+                let room = to.room * (1.0 / own.norm);
+                *to = Skin { f: to.f, half: own.covector(to.half), e_f, e_half, bend, room };
+            },
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                self.0.slant(isa, &own.point(at.h), to);
+                to.half = own.covector(to.half);
+            },
+        );
+    }
+
+    fn shading(&self, isa: Isa, own: &Own, h: &mut Vec3<F8>) -> bool {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let y = own.point(*h);
+                let differs = self.0.shading(isa, &y, h);
+                *h = own.covector(*h);
+                differs
+            },
+        )
+    }
 }
 
 impl Line8 {

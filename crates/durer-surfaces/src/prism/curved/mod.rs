@@ -32,8 +32,9 @@ pub(crate) mod profile_hits;
 mod self_intersection;
 mod spline;
 
+use super::packet::{ProfileCurve8, Sweep8, Swept};
 use super::{PrismError, Sweep};
-use crate::packet::{FilterSource, ProfileCurve8, Sweep8, Swept};
+use crate::packet::FilterSource;
 use crate::planar::{self, Line, PointLine, Probe};
 use crate::revolution::level::HeightPlane;
 use crate::{
@@ -343,7 +344,7 @@ impl Accelerate for CurvedPrism {
             Some(cap) if self.has_tip(cap > 0) => return FilterSource::vague(bounds),
             Some(cap) => Swept::Cap { curves: self.curves_for_lanes(), sweep, top: cap > 0 },
         };
-        FilterSource::swept(bounds, part, centre, scale)
+        FilterSource::kernel(bounds, part, centre, scale, [0, 1, 2])
     }
 
     fn solid_packet_filter(&self) -> (FilterSource, Vec<PartId>) {
@@ -355,7 +356,7 @@ impl Accelerate for CurvedPrism {
         let faces = if left.is_some() { self.pieces.len() as u32 + 2 } else { 1 };
         let whole = Swept::Whole { curves: self.curves_for_lanes(), sweep: self.sweep_for_lanes(), left };
         let View { centre, scale, .. } = self.view;
-        (FilterSource::swept(self.bounds, whole, centre, scale), (0..faces).map(PartId).collect())
+        (FilterSource::kernel(self.bounds, whole, centre, scale, [0, 1, 2]), (0..faces).map(PartId).collect())
     }
 
     #[inline(always)]

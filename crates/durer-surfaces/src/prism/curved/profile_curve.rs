@@ -1,9 +1,9 @@
 //! One piece of a curved outline: a cubic curve in the plane.
 
+use super::super::packet::ProfileCurve8;
 use super::Sweep;
 use super::spline::Bezier;
 use crate::LocalRay;
-use crate::packet::ProfileCurve8;
 use durer_math::eft::scale2;
 use durer_math::{EFloat, Point3, Ring, U, Vec3};
 use durer_roots::bernstein::Bernstein;

@@ -13,14 +13,15 @@
 mod groups;
 mod rays;
 
-pub(super) use self::rays::BlobScratch;
-
 use self::groups::{Group, groups};
-use super::local_frame::{Own, dot, largest};
-use super::rays::{NEVER, SLACK};
-use super::revolution::Skin;
+use crate::packet::closest::PacketQuery;
+use crate::packet::crossings::Crossings;
+use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use crate::packet::local_frame::{Own, dot, largest};
+use crate::packet::rays::{NEVER, Nearest, SLACK};
+use crate::packet::skin::Skin;
 use durer_math::scale::pow2;
-use durer_math::{Aabb, F8, U, Vec3};
+use durer_math::{Aabb, F8, Isa, U, Vec3};
 
 /// Covers results below the normal range.
 const TINY: f64 = pow2(-500);
@@ -125,7 +126,7 @@ impl Fields {
 
     /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
-    pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
+    fn points(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let y = own.point(h);
         // For rays that start there, the kernel begins at a place that may be this far from the
         // start (`rays.rs`).
@@ -144,5 +145,36 @@ impl Field {
     fn turned(&self, v: Vec3<F8>) -> Vec3<F8> {
         let [a, b, c] = Vec3::splats(self.rows);
         Vec3::new(dot(a, v), dot(b, v), dot(c, v))
+    }
+}
+
+impl PacketKernel for Fields {
+    fn face_of(&self, _number: u32) -> u32 {
+        0
+    }
+
+    fn first(
+        &self,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    ) {
+        self.meet(seen, &mut query.first(nearest), scratch.of());
+    }
+
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
+        self.meet(seen, to, scratch.of());
+    }
+
+    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
+        self.sides(seen, at)
+    }
+
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = self.points(own, at.h, at.h1),
+        );
     }
 }

@@ -36,7 +36,7 @@ pub(super) const REST: f64 = 8.0 * U;
 /// Lower exponents, whose powers count for nothing, are taken for this.
 const LOWEST: f64 = -1000.0;
 /// Thinner spikes than those of this exponent are left to the tape: the bound of the value grows
-/// with it (`superellipsoid_concave.rs`).
+/// with it (`../concave.rs`).
 const MOST_DENTED: f64 = 8.0;
 /// Sharper exponents than this make a box, and are left to the tape.
 const SHARPEST: f64 = 1.0 / 128.0;
@@ -100,7 +100,7 @@ impl Gauge {
     }
 
     /// The same function for exponents that make dents between all axes, if these are such: no
-    /// norm, and without a bound for gradients (`superellipsoid_concave.rs`).
+    /// norm, and without a bound for gradients (`../concave.rs`).
     pub(in crate::implicit) fn of_dents(e: f64, n: f64) -> Option<Self> {
         let with_dents = 2.0..=MOST_DENTED;
         let gauge = Self {

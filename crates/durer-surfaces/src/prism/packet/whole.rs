@@ -4,7 +4,7 @@
 //! All crossings of a ray's line with walls and caps are found. Those before the start decide
 //! whether the ray starts inside, and so on which side of the next crossing the solid lies. If one
 //! crossing is uncertain, or two cannot be ordered, everything from there on is a doubt. Rays that
-//! start on such a solid start so far from it (see `Swept::spot`) that the crossing they left is
+//! start on such a solid start so far from it (see `Swept::points`) that the crossing they left is
 //! certainly behind them.
 //!
 //! As CSG operands such prisms report each crossing and the side on which the solid lies, given by
@@ -14,16 +14,15 @@
 //! A conic sweep may end in its apex, where there is no cap. A ray that passes the apex so closely
 //! that its trace is unknown is a doubt.
 
-use super::closest::PacketQuery;
-use super::crossings::Crossings;
-use super::local_frame::Own;
-use super::prism::{
-    Named, PrismScratch, ProfileCurve8, Sweep8, conclude, count, cubic_of, enclose, enclose_all, flipped,
-    parted, placed, reach, see, side_of, tag_of, wall,
-};
-use super::quadric::Start;
-use super::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
-use super::sink::{First, Sink8};
+use super::caps::{conclude, count, flipped, reach};
+use super::walls::{Named, cubic_of, enclose, enclose_all, parted, placed, wall};
+use super::{PrismScratch, ProfileCurve8, Sweep8, see, side_of, tag_of};
+use crate::packet::closest::PacketQuery;
+use crate::packet::crossings::Crossings;
+use crate::packet::local_frame::Own;
+use crate::packet::quadric::Start;
+use crate::packet::rays::{CLEAR, From8, Nearest, RayLanes, SLACK};
+use crate::packet::sink::{First, Sink8};
 use durer_math::{F8, M8, U};
 
 /// The crossings of eight lines found so far.

@@ -14,7 +14,7 @@ use durer_math::{F8, M8, U};
 /// Heights and points have the same errors as in `reach` of a cap. A trace is straight, so it lies
 /// between its ends. The traces of rays that may pass the apex are not bounded.
 #[inline(never)]
-pub(in crate::packet) fn enclose<K: Sink8>(
+pub(super) fn enclose<K: Sink8>(
     rays: &RayLanes<'_>,
     sweep: &Sweep8,
     to: &K,
@@ -82,7 +82,7 @@ pub(in crate::packet) fn enclose<K: Sink8>(
 
 /// Stores a box around the traces of all rays.
 #[inline(never)]
-pub(in crate::packet) fn enclose_all(rays: &RayLanes<'_>, memory: &mut PrismScratch) {
+pub(super) fn enclose_all(rays: &RayLanes<'_>, memory: &mut PrismScratch) {
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {
@@ -95,7 +95,7 @@ pub(in crate::packet) fn enclose_all(rays: &RayLanes<'_>, memory: &mut PrismScra
 
 /// Computes the cubic of the rays' traces along a curve. Returns false if all rays miss.
 #[inline(never)]
-pub(in crate::packet) fn cubic_of<K: Sink8>(
+pub(super) fn cubic_of<K: Sink8>(
     rays: &RayLanes<'_>,
     curve: &ProfileCurve8,
     to: &mut K,
@@ -139,7 +139,7 @@ pub(in crate::packet) fn cubic_of<K: Sink8>(
 /// The form `n·(x, 1, z)` that vanishes on the traces of eight rays, with a bound on its slope and
 /// the bound `e + e_reach R` on the errors of its values at points of size `R`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::packet) struct Form8 {
+pub(super) struct Form8 {
     n: [F8; 3],
     size: F8,
     e: F8,
@@ -167,11 +167,7 @@ impl Form8 {
 }
 
 /// Finds the next root of the cubic. Returns false if no lane has one.
-pub(in crate::packet) fn parted<K: Sink8>(
-    rays: &RayLanes<'_>,
-    to: &mut K,
-    memory: &mut PrismScratch,
-) -> bool {
+pub(super) fn parted<K: Sink8>(rays: &RayLanes<'_>, to: &mut K, memory: &mut PrismScratch) -> bool {
     let isa = rays.isa;
     memory.poly.isolate(isa, &mut memory.part);
     if memory.part.unsure.any() {
@@ -186,25 +182,25 @@ pub(in crate::packet) fn parted<K: Sink8>(
 }
 
 /// Crossings of the rays with a wall.
-pub(in crate::packet) struct Placed8 {
-    pub(in crate::packet) t: F8,
-    pub(in crate::packet) e: F8,
+pub(super) struct Placed8 {
+    pub(super) t: F8,
+    pub(super) e: F8,
     /// Lanes in which `t` is known within `e`.
-    pub(in crate::packet) known: M8,
+    pub(super) known: M8,
     /// Lanes certainly between the heights, and lanes certainly not.
-    pub(in crate::packet) inside: M8,
-    pub(in crate::packet) outside: M8,
+    pub(super) inside: M8,
+    pub(super) outside: M8,
 }
 
 /// A wall: the number of its face, and whether the inside is to the left of its curve.
 #[derive(Clone, Copy)]
-pub(in crate::packet) struct Named {
-    pub(in crate::packet) face: f64,
-    pub(in crate::packet) left: bool,
+pub(super) struct Named {
+    pub(super) face: f64,
+    pub(super) left: bool,
 }
 
 /// Passes all crossings with a wall to `to`; `from` describes rays that start on it.
-pub(in crate::packet) fn wall<K: Sink8>(
+pub(super) fn wall<K: Sink8>(
     (rays, from): (&RayLanes<'_>, Option<&From8>),
     (curve, sweep, named): (&ProfileCurve8, &Sweep8, Named),
     to: &mut K,
@@ -248,7 +244,7 @@ impl WallPoint {
 
 /// The roots of the cubic as parameters on the rays.
 #[inline(always)]
-pub(in crate::packet) fn placed((curve, sweep): (&ProfileCurve8, &Sweep8), memory: &PrismScratch) -> Placed8 {
+pub(super) fn placed((curve, sweep): (&ProfileCurve8, &Sweep8), memory: &PrismScratch) -> Placed8 {
     let PrismScratch { o: [ox, oy, oz], d: [dx, dy, dz], e_o, e_d, root, .. } = *memory;
     let ([x, z], slope) = curve.at(root.x);
     // Within the root's error the slope changes by less than `turn e`.

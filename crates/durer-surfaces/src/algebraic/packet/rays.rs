@@ -37,10 +37,11 @@
 
 use super::{Sizes, Terms};
 use crate::packet::convex::Hull;
+use crate::packet::kernel::KernelRays;
 use crate::packet::local_frame::{Own, dot, largest, on};
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
-use crate::packet::rays::{From8, RayLanes, SLACK};
+use crate::packet::rays::{RayLanes, SLACK};
 use crate::packet::sink::Sink8;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U, Vec3};
@@ -64,7 +65,7 @@ enum LineThird {
 
 /// Working memory for eight rays and one surface.
 #[derive(Debug)]
-pub(in crate::packet) struct PolynomialScratch<const N: usize> {
+pub(super) struct PolynomialScratch<const N: usize> {
     /// The rays in the surface's own coordinates.
     o: Vec3<F8>,
     d: Vec3<F8>,
@@ -124,11 +125,9 @@ impl<const N: usize> Terms<N> {
     /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. Only
     /// crossings inside the faces of `cell` count. `leaving` describes rays that start on the
     /// surface, and whether the surface is turned.
-    pub(in crate::packet) fn meet<K: Sink8>(
+    pub(super) fn meet<K: Sink8>(
         &self,
-        own: &Own,
-        (rays, leaving): (&RayLanes<'_>, Option<(&From8, bool)>),
-        (start, cell): (&Start, Option<&Hull>),
+        &KernelRays { own, rays, leaving, start, cell }: &KernelRays<'_>,
         to: &mut K,
         memory: &mut PolynomialScratch<N>,
     ) {
@@ -173,11 +172,9 @@ impl<const N: usize> Terms<N> {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(in crate::packet) fn holds(
+    pub(super) fn sides(
         &self,
-        own: &Own,
-        rays: &RayLanes<'_>,
-        start: &Start,
+        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),
     ) -> (u8, u8) {
         rays.isa.run_in_lanes(

@@ -8,7 +8,10 @@
 //! *Computer Graphics (Proc. SIGGRAPH)* 17(3), 1983. Coefficients are listed by falling powers of x,
 //! then of y, then of z, so that one pass over the list with nested Horner schemes puts a ray into `f`.
 
-use crate::packet::{FilterSource, PacketKernel, Terms};
+mod packet;
+
+use self::packet::Terms;
+use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
 use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::quadric::form::FLOOR;
@@ -417,9 +420,9 @@ impl Accelerate for AlgebraicSurface {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         match &self.0 {
-            Fitting::Four(p) => FilterSource::algebraic(PacketKernel::Quartic(Arc::new(p.terms())), p.scale),
-            Fitting::Eight(p) => FilterSource::algebraic(PacketKernel::Octic(Arc::new(p.terms())), p.scale),
-            Fitting::Sixteen(p) => FilterSource::algebraic(PacketKernel::High(Arc::new(p.terms())), p.scale),
+            Fitting::Four(p) => FilterSource::unbounded(p.terms(), p.scale),
+            Fitting::Eight(p) => FilterSource::unbounded(p.terms(), p.scale),
+            Fitting::Sixteen(p) => FilterSource::unbounded(p.terms(), p.scale),
         }
     }
 }

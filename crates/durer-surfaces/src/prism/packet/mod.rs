@@ -22,21 +22,20 @@
 
 mod caps;
 mod walls;
+mod whole;
 
-pub(super) use self::caps::{conclude, count, flipped, reach};
-pub(super) use self::walls::{Named, cubic_of, enclose, enclose_all, parted, placed, wall};
-
-use self::walls::Form8;
-use super::PacketFilter;
-use super::closest::PacketQuery;
-use super::crossings::Crossings;
-use super::local_frame::Own;
-use super::polynomial_roots::{Part8, Poly8, Root8};
-use super::prism_solid;
-use super::quadric::Start;
-use super::rays::{From8, NEVER, Nearest, RayLanes, SLACK};
-use super::revolution::Skin;
-use super::sink::First;
+use self::caps::{conclude, count, reach};
+use self::walls::{Form8, Named, cubic_of, enclose, wall};
+use crate::packet::PacketFilter;
+use crate::packet::closest::PacketQuery;
+use crate::packet::crossings::Crossings;
+use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use crate::packet::local_frame::Own;
+use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
+use crate::packet::quadric::Start;
+use crate::packet::rays::{NEVER, Nearest, RayLanes, SLACK};
+use crate::packet::skin::Skin;
+use durer_math::Isa;
 use durer_math::{F8, M8, U, Vec3};
 
 /// A cubic curve by its control points, all x and then all z, each within `slack` of the exact one.
@@ -73,11 +72,11 @@ pub(crate) enum Swept {
 
 /// Working memory for eight rays and one part.
 #[derive(Debug, Default)]
-pub(super) struct PrismScratch {
-    pub(super) o: [F8; 3],
-    pub(super) d: [F8; 3],
-    pub(super) e_o: F8,
-    pub(super) e_d: F8,
+struct PrismScratch {
+    o: [F8; 3],
+    d: [F8; 3],
+    e_o: F8,
+    e_d: F8,
     /// A bound on every `t` at which the surface can be met.
     far: F8,
     /// The rays between the two heights, and their traces there: the least and the greatest x, and
@@ -86,23 +85,23 @@ pub(super) struct PrismScratch {
     traces: [F8; 4],
     form: Form8,
     /// A box around the traces of all rays.
-    pub(super) around: [f64; 4],
-    pub(super) poly: Poly8<4>,
-    pub(super) part: Part8,
-    pub(super) root: Root8,
+    around: [f64; 4],
+    poly: Poly8<4>,
+    part: Part8,
+    root: Root8,
     /// For a cap: the crossing with its plane, the point there, and whether that is inside so far.
-    pub(super) t: F8,
-    pub(super) e: F8,
-    pub(super) place: [F8; 2],
-    pub(super) e_place: F8,
-    pub(super) open: M8,
-    pub(super) odd: M8,
-    pub(super) unsure: M8,
+    t: F8,
+    e: F8,
+    place: [F8; 2],
+    e_place: F8,
+    open: M8,
+    odd: M8,
+    unsure: M8,
 }
 
 impl Sweep8 {
     /// Whether the sweep ends at the top, or at the bottom, in its apex instead of a cap.
-    pub(super) fn has_tip(&self, top: bool) -> bool {
+    fn has_tip(&self, top: bool) -> bool {
         self.conic && (if top { self.high } else { self.low }) == 0.0
     }
 }
@@ -110,13 +109,13 @@ impl Sweep8 {
 /// The tag of a point on a wall: `u` along its curve, and, as the sign, whether the inside is to
 /// the left.
 #[inline(always)]
-pub(super) fn tag_of(u: F8, left: M8) -> F8 {
+fn tag_of(u: F8, left: M8) -> F8 {
     u.copysign(left.select(F8::ONE, F8::splat(-1.0)))
 }
 
 /// The `u` and the side in a tag.
 #[inline(always)]
-pub(super) fn side_of(tag: F8) -> (F8, M8) {
+fn side_of(tag: F8) -> (F8, M8) {
     (tag.abs(), F8::ONE.copysign(tag).gt(F8::ZERO))
 }
 
@@ -148,7 +147,7 @@ impl ProfileCurve8 {
 
     /// Whether the curve is certainly outside a box in the same format as `around`.
     #[inline(always)]
-    pub(super) fn is_beside(&self, [x0, x1, z0, z1]: &[f64; 4]) -> bool {
+    fn is_beside(&self, [x0, x1, z0, z1]: &[f64; 4]) -> bool {
         let [a, b, c, d] = &self.around;
         x1 < a || x0 > b || z1 < c || z0 > d
     }
@@ -191,18 +190,30 @@ fn cubic(g: [F8; 4], e: F8) -> Poly8<4> {
     Poly8 { c: k, e, e_first: e, e_last: e }
 }
 
-impl Swept {
-    /// Passes the first crossing of each ray to `nearest`.
-    pub(super) fn meet(
+impl PacketKernel for Swept {
+    fn face_of(&self, number: u32) -> u32 {
+        match self {
+            Self::Whole { curves, .. } => (number + 1).saturating_sub(curves.len() as u32).min(2),
+            Self::Wall { .. } => 0,
+            Self::Cap { top, .. } => 1 + u32::from(*top),
+        }
+    }
+
+    /// Whether this is a whole solid with few enough faces to number.
+    fn is_operand(&self) -> bool {
+        matches!(self, Self::Whole { curves, .. } if curves.len() + 2 <= PacketFilter::FACES)
+    }
+
+    fn first(
         &self,
-        own: &Own,
-        asked: &PacketQuery<'_>,
-        start: &Start,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
         nearest: &mut Nearest,
-        memory: &mut PrismScratch,
+        scratch: &mut KernelScratch,
     ) {
-        let rays = asked.rays;
-        let mut to = First { nearest, number: asked.number };
+        let &KernelRays { own, rays, start, .. } = seen;
+        let memory: &mut PrismScratch = scratch.of();
+        let mut to = query.first(nearest);
         match self {
             Self::Wall { curve, sweep, left } => {
                 rays.isa.run_in_lanes(
@@ -211,7 +222,7 @@ impl Swept {
                 );
                 if enclose(rays, sweep, &to, memory, true) && cubic_of(rays, curve, &mut to, memory) {
                     let named = Named { face: 0.0, left: *left };
-                    wall((rays, asked.from), (curve, sweep, named), &mut to, memory);
+                    wall((rays, query.from), (curve, sweep, named), &mut to, memory);
                 }
             }
             Self::Cap { curves, sweep, top } => {
@@ -219,57 +230,52 @@ impl Swept {
                     #[inline(always)]
                     || see(own, rays, start, memory),
                 );
-                if reach((rays, asked.from), (sweep, *top), &to, memory, true) {
+                if reach((rays, query.from), (sweep, *top), &to, memory, true) {
                     count(rays.isa, curves, memory);
                     conclude(rays, 0.0, &mut to, memory);
                 }
             }
             Self::Whole { curves, sweep, .. } => {
-                prism_solid::meet(own, asked, start, (curves, sweep), nearest, memory);
+                whole::meet(own, query, start, (curves, sweep), nearest, memory);
             }
         }
     }
 
-    /// Whether this is a whole solid with few enough faces to number.
-    pub(super) fn is_operand(&self) -> bool {
-        matches!(self, Self::Whole { curves, .. } if curves.len() + 2 <= PacketFilter::FACES)
-    }
-
-    /// Stores all crossings of a solid.
-    pub(super) fn crossings(
-        &self,
-        own: &Own,
-        rays: (&RayLanes<'_>, Option<(&From8, bool)>),
-        start: &Start,
-        to: &mut Crossings,
-        memory: &mut PrismScratch,
-    ) {
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
         if let Self::Whole { curves, sweep, left } = self {
-            prism_solid::crossings(own, rays, start, (curves, sweep, left.as_deref()), to, memory);
+            let &KernelRays { own, rays, leaving, start, .. } = seen;
+            let solid = (&**curves, sweep, left.as_deref());
+            whole::crossings(own, (rays, leaving), start, solid, to, scratch.of());
         }
     }
 
-    /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly
-    /// inside the solid, and those that are certainly outside.
-    pub(super) fn holds(
+    fn holds(
         &self,
-        own: &Own,
-        rays: &RayLanes<'_>,
-        start: &Start,
-        at: ((F8, F8), u8),
-        memory: &mut PrismScratch,
+        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
+        at: (F8, F8),
+        asked: u8,
+        scratch: &mut KernelScratch,
     ) -> (u8, u8) {
         match self {
             Self::Whole { curves, sweep, .. } => {
-                prism_solid::holds(own, rays, start, at, (curves, sweep), memory)
+                whole::holds(own, rays, start, (at, asked), (curves, sweep), scratch.of())
             }
             Self::Wall { .. } | Self::Cap { .. } => (0, 0),
         }
     }
 
+    fn skin(&self, isa: Isa, own: &Own, &FacePoints { face, tag, h, h1 }: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = self.points(own, (face, tag), h, h1),
+        );
+    }
+}
+
+impl Swept {
     /// The data at points `h` of this part, with `|h|₁`; `u` is the tag of a wall's point.
     #[inline(always)]
-    pub(super) fn spot(&self, own: &Own, (face, u): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
+    fn points(&self, own: &Own, (face, u): (usize, F8), h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         match self {
             Self::Whole { curves, sweep, left: sides } => match curves.get(face) {
@@ -293,15 +299,6 @@ impl Swept {
                 let outward = F8::splat(if *left { 1.0 } else { -1.0 });
                 wall_skin(own, (curve, sweep), (side_of(u).0, outward), y, e)
             }
-        }
-    }
-
-    /// The face of roots on this part.
-    pub(super) fn face(&self, number: u32) -> u32 {
-        match self {
-            Self::Whole { curves, .. } => (number + 1).saturating_sub(curves.len() as u32).min(2),
-            Self::Wall { .. } => 0,
-            Self::Cap { top, .. } => 1 + u32::from(*top),
         }
     }
 }
@@ -373,7 +370,7 @@ fn wall_skin(
 
 /// Computes the rays in the sweep's own coordinates.
 #[inline(always)]
-pub(super) fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut PrismScratch) {
+fn see(own: &Own, rays: &RayLanes<'_>, start: &Start, memory: &mut PrismScratch) {
     let (o, d) = (own.point(start.h), own.vector(*rays.direction));
     (memory.o, memory.d) = ([o.x, o.y, o.z], [d.x, d.y, d.z]);
     (memory.e_o, memory.e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));

@@ -2,10 +2,11 @@
 //! of their points are inside.
 
 use super::{Bounded, RevolutionKernel, value};
+use crate::packet::kernel::KernelRays;
 use crate::packet::local_frame::Own;
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
-use crate::packet::rays::{CLEAR, From8, RayLanes, SLACK};
+use crate::packet::rays::{CLEAR, RayLanes, SLACK};
 use crate::packet::sink::Sink8;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U};
@@ -39,7 +40,7 @@ struct HeightCrossing8 {
 
 /// Working memory for eight rays and one surface.
 #[derive(Debug, Default)]
-pub(in crate::packet) struct RevolutionScratch {
+pub(super) struct RevolutionScratch {
     sight: RevolutionRays8,
     low: HeightCrossing8,
     high: HeightCrossing8,
@@ -58,11 +59,9 @@ pub(in crate::packet) struct RevolutionScratch {
 impl RevolutionKernel {
     /// Passes the crossings of each ray, or only the first one of each wall, and the doubts to
     /// `to`. `leaving` describes rays that start on the surface, and whether the surface is turned.
-    pub(in crate::packet) fn meet<K: Sink8>(
+    pub(super) fn meet<K: Sink8>(
         &self,
-        own: &Own,
-        (rays, leaving): (&RayLanes<'_>, Option<(&From8, bool)>),
-        start: &Start,
+        &KernelRays { own, rays, leaving, start, .. }: &KernelRays<'_>,
         to: &mut K,
         memory: &mut RevolutionScratch,
     ) {
@@ -107,11 +106,9 @@ impl RevolutionKernel {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(in crate::packet) fn holds(
+    pub(super) fn sides(
         &self,
-        own: &Own,
-        rays: &RayLanes<'_>,
-        start: &Start,
+        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),
     ) -> (u8, u8) {
         rays.isa.run_in_lanes(

@@ -20,12 +20,13 @@
 
 mod rays;
 
-pub(super) use self::rays::PolynomialScratch;
-
-use super::local_frame::{Own, largest};
-use super::rays::{NEVER, SLACK};
-use super::revolution::Skin;
-use durer_math::{F8, U, Vec3};
+use crate::packet::closest::PacketQuery;
+use crate::packet::crossings::Crossings;
+use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use crate::packet::local_frame::{Own, largest};
+use crate::packet::rays::{NEVER, Nearest, SLACK};
+use crate::packet::skin::Skin;
+use durer_math::{F8, Isa, U, Vec3};
 use std::sync::Arc;
 
 /// A polynomial of degree below `N`: all coefficients of degree up to `order`, by falling powers of
@@ -144,7 +145,7 @@ impl<const N: usize> Terms<N> {
 
     /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
-    pub(super) fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
+    fn points(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         let m = largest(y);
         let Sizes { f: size, slope, bend } = self.sizes(m + 1.0 / 64.0);
@@ -156,5 +157,40 @@ impl<const N: usize> Terms<N> {
         let e_half = (e * bend + slope * (16.0 * N as f64 * U)) * own.norm;
         let half = own.covector(Vec3::new(g.x * 0.5, g.y * 0.5, g.z * 0.5));
         Skin { f, half, e_f, e_half, bend: bend * (own.norm * own.norm * (1.0 + 16.0 * U)), room: NEVER }
+    }
+}
+
+impl<const N: usize> PacketKernel for Terms<N> {
+    fn face_of(&self, _number: u32) -> u32 {
+        0
+    }
+
+    fn is_unbounded(&self) -> bool {
+        true
+    }
+
+    fn first(
+        &self,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    ) {
+        self.meet(seen, &mut query.first(nearest), scratch.of());
+    }
+
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
+        self.meet(seen, to, scratch.of());
+    }
+
+    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
+        self.sides(seen, at)
+    }
+
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = self.points(own, at.h, at.h1),
+        );
     }
 }

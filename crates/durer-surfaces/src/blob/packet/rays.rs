@@ -17,12 +17,13 @@
 
 use super::groups::Group;
 use super::{Field, Fields, TINY};
+use crate::packet::kernel::KernelRays;
 use crate::packet::local_frame::{Own, dot, largest, on};
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
-use crate::packet::rays::{From8, RayLanes, SLACK};
-use crate::packet::revolution::Skin;
+use crate::packet::rays::{RayLanes, SLACK};
 use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
 use arrayvec::ArrayVec;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
@@ -64,7 +65,7 @@ struct BlobRays8 {
 
 /// Working memory for eight rays and one blob.
 #[derive(Debug)]
-pub(in crate::packet) struct BlobScratch {
+pub(super) struct BlobScratch {
     sight: BlobRays8,
     pieces: ArrayVec<Piece8, MOST>,
     charge: F8,
@@ -126,11 +127,9 @@ struct Segment {
 impl Fields {
     /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. `leaving`
     /// describes rays that start on the surface, and whether the surface is turned.
-    pub(in crate::packet) fn meet<K: Sink8>(
+    pub(super) fn meet<K: Sink8>(
         &self,
-        own: &Own,
-        (rays, leaving): (&RayLanes<'_>, Option<(&From8, bool)>),
-        start: &Start,
+        &KernelRays { own, rays, leaving, start, .. }: &KernelRays<'_>,
         to: &mut K,
         memory: &mut BlobScratch,
     ) {
@@ -201,11 +200,9 @@ impl Fields {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(in crate::packet) fn holds(
+    pub(super) fn sides(
         &self,
-        own: &Own,
-        rays: &RayLanes<'_>,
-        start: &Start,
+        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),
     ) -> (u8, u8) {
         rays.isa.run_in_lanes(

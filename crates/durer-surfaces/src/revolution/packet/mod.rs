@@ -23,11 +23,14 @@
 
 mod rays;
 
-pub(super) use self::rays::RevolutionScratch;
-
-use super::local_frame::Own;
-use super::rays::NEVER;
-use durer_math::{F8, U, Vec3};
+use crate::packet::PacketFilter;
+use crate::packet::closest::PacketQuery;
+use crate::packet::crossings::Crossings;
+use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use crate::packet::local_frame::Own;
+use crate::packet::rays::{NEVER, Nearest};
+use crate::packet::skin::Skin;
+use durer_math::{F8, Isa, U, Vec3};
 
 /// A wall between two heights.
 #[derive(Clone, Copy, Debug)]
@@ -90,24 +93,6 @@ impl RevolutionWall {
     }
 }
 
-/// Rounded data near a face: `f` and half its gradient.
-pub(crate) struct Slant {
-    pub(crate) f: F8,
-    pub(crate) half: Vec3<F8>,
-}
-
-/// Data at a point of a face: `f`, half its gradient, and bounds on their errors.
-pub(crate) struct Skin {
-    pub(crate) f: F8,
-    pub(crate) half: Vec3<F8>,
-    pub(crate) e_f: F8,
-    pub(crate) e_half: F8,
-    /// An upper bound of the Hessian's norm near the point.
-    pub(crate) bend: F8,
-    /// The distance up to which `bend` holds.
-    pub(crate) room: F8,
-}
-
 impl RevolutionKernel {
     /// The kernel for these walls; `closed` if it has flat ends.
     pub(crate) fn new(walls: &[RevolutionWall], closed: bool) -> Self {
@@ -124,19 +109,9 @@ impl RevolutionKernel {
         Self { walls: walls.collect(), closed }
     }
 
-    /// The `Root::face` of the face with this number.
-    pub(super) fn name(&self, face: u32) -> u32 {
-        face.saturating_sub(self.walls.len() as u32 - 1).min(2)
-    }
-
-    /// The number of numbered faces.
-    pub(super) fn faces(&self) -> usize {
-        self.walls.len() + 2
-    }
-
     /// `f` and its gradient at points `h` of a face, with `|h|₁`.
     #[inline(always)]
-    pub(super) fn skin(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
+    fn points(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         let count = self.walls.len();
         if face >= count {
@@ -183,4 +158,39 @@ fn value(wall: &RevolutionWall, n: F8, v: F8) -> F8 {
     let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
     let q = v.mul_add(v, n) + wall.kappa;
     (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))
+}
+
+impl PacketKernel for RevolutionKernel {
+    fn face_of(&self, number: u32) -> u32 {
+        number.saturating_sub(self.walls.len() as u32 - 1).min(2)
+    }
+
+    fn is_operand(&self) -> bool {
+        self.walls.len() + 2 <= PacketFilter::FACES
+    }
+
+    fn first(
+        &self,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    ) {
+        self.meet(seen, &mut query.first(nearest), scratch.of());
+    }
+
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
+        self.meet(seen, to, scratch.of());
+    }
+
+    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
+        self.sides(seen, at)
+    }
+
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = self.points(own, at.face, at.h, at.h1),
+        );
+    }
 }

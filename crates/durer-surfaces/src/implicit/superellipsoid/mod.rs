@@ -7,8 +7,8 @@
 //! ```
 //!
 //! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows
-//! (`superellipsoid_convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes
-//! of two axes, and lanes do without it outside (`superellipsoid_concave.rs`).
+//! (`convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes
+//! of two axes, and lanes do without it outside (`concave.rs`).
 //!
 //! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and
 //! Applications* 1(1), 1981.
@@ -19,7 +19,10 @@
 //! are told apart by the bounds alone, down to the rounding of the formula if need be: no crossing
 //! is lost, but one on an edge or at a tip of the surface itself may be reported as a cluster.
 
-use super::superellipsoid_convex::Gauge;
+pub(super) mod concave;
+pub(super) mod convex;
+
+use self::convex::Gauge;
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::{AxisBox, AxisBoxError};
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};

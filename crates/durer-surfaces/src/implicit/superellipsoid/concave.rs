@@ -24,15 +24,15 @@
 //!
 //! Rays inside are told by the formula.
 //!
-//! **The value.** As in `superellipsoid_convex/gauge.rs`, with logarithms that err by `8 u` of
+//! **The value.** As in `convex/gauge.rs`, with logarithms that err by `8 u` of
 //! themselves and powers by `4 u`. The larger of two numbers is no less than `2^(-1/p)` of `N`,
 //! `2^(-1/q)` of `G`; so `log N` errs by no more than `(16 |a| + 20 / p + |log N|) u`, `log G` by
 //! `(36 / p + 41 / q + 22 |log G|) u`, and `G`, where it is from 1/4 to 4, by
 //! `(25 / p + 29 / q + 36) u` of itself. Where it is beyond these errors are far below what it
 //! differs from 1 by.
 
-use super::Isosurface;
-use super::superellipsoid_convex::{Gauge, Sample};
+use super::convex::{Gauge, Sample};
+use crate::implicit::Isosurface;
 use crate::packet::{ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use durer_math::{F8, Isa, M8, U, Vec3};
 
@@ -48,7 +48,7 @@ const NEVER: F8 = F8::splat(f64::INFINITY);
 
 /// The solid.
 #[derive(Clone, Debug)]
-pub(super) struct Star {
+pub(in crate::implicit) struct Star {
     gauge: Gauge,
     /// Bound on the error of the gauge, relative to it.
     error: f64,
@@ -63,7 +63,7 @@ struct Sizes {
 }
 
 impl Star {
-    pub(super) fn new(gauge: &Gauge, formula: &Isosurface) -> Self {
+    pub(in crate::implicit) fn new(gauge: &Gauge, formula: &Isosurface) -> Self {
         let (over_p, over_q) = gauge.over_exponents();
         let error = (25.0 * over_p + 29.0 * over_q + 36.0) * (1.0 + 1.0 / 512.0) * U;
         Self { gauge: gauge.clone(), error, formula: formula.clone() }
@@ -222,9 +222,9 @@ impl ImplicitKernel for Star {
 
 #[cfg(test)]
 mod tests {
+    use super::super::convex::tests::{Exact, P, RM, big, coordinate, number};
     use super::*;
     use crate::implicit::superellipsoid;
-    use crate::implicit::superellipsoid_convex::tests::{Exact, P, RM, big, coordinate, number};
     use crate::laws::TestRng;
     use astro_float::BigFloat;
     use durer_math::lanes::LANES;

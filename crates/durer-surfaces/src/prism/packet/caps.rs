@@ -44,7 +44,7 @@ impl Strip {
 /// Computes where the rays meet the plane of a cap. Returns false if none does where it matters:
 /// ahead of the rays, or anywhere on their lines.
 #[inline(never)]
-pub(in crate::packet) fn reach<K: Sink8>(
+pub(super) fn reach<K: Sink8>(
     (rays, from): (&RayLanes<'_>, Option<&From8>),
     (sweep, top): (&Sweep8, bool),
     to: &K,
@@ -95,7 +95,7 @@ pub(in crate::packet) fn reach<K: Sink8>(
 }
 
 /// Counts, modulo two, how often the line from the point of a cap along x crosses curves.
-pub(in crate::packet) fn count(isa: Isa, curves: &[ProfileCurve8], memory: &mut PrismScratch) {
+pub(super) fn count(isa: Isa, curves: &[ProfileCurve8], memory: &mut PrismScratch) {
     let ahead = ahead(isa, memory);
     for curve in curves {
         // No line comes near the curve.
@@ -196,18 +196,13 @@ fn count_one(isa: Isa, curve: &ProfileCurve8, memory: &mut PrismScratch) {
 }
 
 #[inline(always)]
-pub(in crate::packet) fn flipped(odd: M8, where_: M8) -> M8 {
+pub(super) fn flipped(odd: M8, where_: M8) -> M8 {
     odd & !where_ | !odd & where_
 }
 
 /// Passes the crossing with a cap to `to`.
 #[inline(never)]
-pub(in crate::packet) fn conclude<K: Sink8>(
-    rays: &RayLanes<'_>,
-    face: f64,
-    to: &mut K,
-    memory: &mut PrismScratch,
-) {
+pub(super) fn conclude<K: Sink8>(rays: &RayLanes<'_>, face: f64, to: &mut K, memory: &mut PrismScratch) {
     rays.isa.run_in_lanes(
         #[inline(always)]
         || {

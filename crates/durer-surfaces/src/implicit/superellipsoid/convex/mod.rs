@@ -26,5 +26,5 @@ mod lanes;
 #[cfg(test)]
 pub(super) mod tests;
 
-pub(super) use crossings::Answer;
-pub(super) use gauge::{Gauge, Sample};
+pub(in crate::implicit) use crossings::Answer;
+pub(in crate::implicit) use gauge::{Gauge, Sample};
