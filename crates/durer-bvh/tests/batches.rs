@@ -2,11 +2,12 @@
 
 mod common;
 
-use common::{Dice, QUALITIES};
+use common::QUALITIES;
 use durer_bvh::{Bvh, Corners, Frame, Leaf, PACKET, Packet32, Ray32, Ray64, Rays, Settings};
 use durer_math::eft::exponent;
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Vec3};
+use durer_testkit::TestRng;
 
 /// Boxes and triangles, and the rays to send through them.
 struct World {
@@ -14,7 +15,7 @@ struct World {
     lines: Vec<Option<Ray64>>,
 }
 
-fn point(dice: &mut Dice, size: f64) -> Point3 {
+fn point(dice: &mut TestRng, size: f64) -> Point3 {
     Point3::new(
         (2.0 * dice.unit() - 1.0) * size,
         (2.0 * dice.unit() - 1.0) * size,
@@ -24,8 +25,8 @@ fn point(dice: &mut Dice, size: f64) -> Point3 {
 
 impl World {
     fn of(seed: u64, boxes: usize, triangles: usize, settings: &Settings) -> Self {
-        let mut dice = Dice(seed);
-        let near = |dice: &mut Dice, p: Point3| p + (point(dice, 0.3) - Point3::ORIGIN);
+        let mut dice = TestRng::new(seed);
+        let near = |dice: &mut TestRng, p: Point3| p + (point(dice, 0.3) - Point3::ORIGIN);
         let corners: Vec<Corners> = (0..triangles)
             .map(|_| {
                 let p = point(&mut dice, 1.0);
@@ -42,7 +43,7 @@ impl World {
         let entries = bounds.iter().enumerate().map(entry).collect();
         let shape = |n: u32| corners[n as usize];
         let (tree, _) = Bvh::build(&frame, entries, &[None, Some(&shape)], settings);
-        let line = |dice: &mut Dice| {
+        let line = |dice: &mut TestRng| {
             // Origins are inside, near and far; some rays have an empty range.
             let size = [0.5, 3.0, 1e6][dice.below(3) as usize];
             let origin = point(dice, size);
@@ -96,7 +97,7 @@ impl World {
 
 /// Answers that depend on the ray and the leaf only.
 fn says(ray: usize, leaf: Leaf) -> u64 {
-    Dice(ray as u64 ^ u64::from(leaf.first) << 20 ^ u64::from(leaf.kind) << 60).next()
+    TestRng::new(ray as u64 ^ u64::from(leaf.first) << 20 ^ u64::from(leaf.kind) << 60).bits()
 }
 
 fn admits(ray: usize, leaf: Leaf) -> bool {

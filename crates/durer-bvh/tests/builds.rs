@@ -2,9 +2,10 @@
 
 mod common;
 
-use common::{Dice, QUALITIES, tree, tree_of};
+use common::{QUALITIES, tree, tree_of};
 use durer_bvh::{Bvh, Corners, Frame, Settings};
 use durer_math::{Aabb, Isa, Point3, Vec3};
+use durer_testkit::TestRng;
 
 fn assert_valid(boxes: &[Aabb]) -> Bvh {
     let [_, good, _] = QUALITIES.map(|settings| assert_valid_as(boxes, &settings));
@@ -77,7 +78,7 @@ impl Power for f64 {
 
 #[test]
 fn flat_straight_and_pointlike() {
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     for flat in 1..8_u64 {
         let boxes: Vec<_> = (0..5000)
             .map(|_| {
@@ -105,7 +106,7 @@ fn huge_and_tiny_extents() {
 
 #[test]
 fn leaves_hold_one_kind() {
-    let mut dice = Dice(6);
+    let mut dice = TestRng::new(6);
     for kinds in [1, 2, 3, 40] {
         // All entries at few places, so that kinds must be separated where boxes cannot be.
         let count = 4000;
@@ -129,7 +130,7 @@ fn leaves_hold_one_kind() {
 
 #[test]
 fn the_number_of_threads_does_not_matter() {
-    let mut dice = Dice(7);
+    let mut dice = TestRng::new(7);
     let boxes: Vec<_> =
         (0..120_000).map(|_| cube(dice.unit(), dice.unit(), dice.unit(), 0.02 * dice.unit())).collect();
     assert_valid(&boxes);
@@ -153,7 +154,7 @@ fn the_number_of_threads_does_not_matter() {
 }
 
 /// Small triangles, and some large and thin ones through all of them.
-fn slivers(dice: &mut Dice, count: usize) -> Vec<Corners> {
+fn slivers(dice: &mut TestRng, count: usize) -> Vec<Corners> {
     let mut point =
         |about: Point3, size: f64| about + Vec3::from([0, 1, 2].map(|_| size * (dice.unit() - 0.5)));
     let mut one = |n: usize| {
@@ -165,7 +166,7 @@ fn slivers(dice: &mut Dice, count: usize) -> Vec<Corners> {
 
 #[test]
 fn parts_of_triangles_are_held_by_the_boxes_of_their_leaves() {
-    let mut dice = Dice(9);
+    let mut dice = TestRng::new(9);
     // As f64 and as f32; also where scaling is inexact, or surfaces are too small for f32, so that
     // the triangles are not split.
     for (is_held, size) in
@@ -216,7 +217,7 @@ fn a_broken_tree_is_found_out() {
 
 #[test]
 fn the_story_is_the_traversal() {
-    let mut dice = Dice(8);
+    let mut dice = TestRng::new(8);
     let boxes: Vec<_> = (0..3000).map(|_| cube(dice.unit(), dice.unit(), dice.unit(), 0.03)).collect();
     let (tree, _) = tree(&boxes);
     for _ in 0..200 {

@@ -8,10 +8,11 @@
 
 mod common;
 
-use common::{Dice, tree};
+use common::{Draws, tree};
 use durer_bvh::{Bvh, Ray64};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Vec3};
+use durer_testkit::TestRng;
 
 /// Integer coordinates.
 type Place = [i64; 3];
@@ -21,11 +22,11 @@ fn point(p: Place, k: i32) -> Point3 {
 }
 
 /// Boxes of all sizes, some flat in one or two directions, some points.
-fn boxes(dice: &mut Dice, grid: i64) -> Vec<(Place, Place)> {
+fn boxes(dice: &mut TestRng, grid: i64) -> Vec<(Place, Place)> {
     let most = [1, 2, 60][dice.below(3) as usize];
     let count = 1 + dice.below(most);
     let flat = dice.below(8);
-    let one = |dice: &mut Dice| {
+    let one = |dice: &mut TestRng| {
         let size = 1 + dice.below(grid as u64) as i64 / (1 << dice.below(20));
         let lo: Place = core::array::from_fn(|axis| if flat >> axis & 1 == 1 { 7 } else { dice.about(grid) });
         let hi = core::array::from_fn(|axis| {
@@ -38,14 +39,14 @@ fn boxes(dice: &mut Dice, grid: i64) -> Vec<(Place, Place)> {
 }
 
 /// Half of the scenes are far from the origin.
-fn moved(dice: &mut Dice, boxes: Vec<(Place, Place)>) -> Vec<(Place, Place)> {
+fn moved(dice: &mut TestRng, boxes: Vec<(Place, Place)>) -> Vec<(Place, Place)> {
     let place = common::place(dice, 51);
     let moved = |p: Place| [0, 1, 2].map(|i| p[i] + place[i]);
     boxes.into_iter().map(|(lo, hi)| (moved(lo), moved(hi))).collect()
 }
 
 /// A point of a box: on each axis an end or a point between.
-fn aim(dice: &mut Dice, (lo, hi): (Place, Place)) -> Place {
+fn aim(dice: &mut TestRng, (lo, hi): (Place, Place)) -> Place {
     core::array::from_fn(|i| match dice.below(3) {
         0 => lo[i],
         1 => hi[i],
@@ -54,7 +55,7 @@ fn aim(dice: &mut Dice, (lo, hi): (Place, Place)) -> Place {
 }
 
 /// A direction and a number of steps along it that lead to the target from an exact origin.
-fn approach(dice: &mut Dice, target: Place) -> Option<(Place, i64)> {
+fn approach(dice: &mut TestRng, target: Place) -> Option<(Place, i64)> {
     let size = [1, 9, 1000, 1 << 20][dice.below(4) as usize];
     let d: Place = core::array::from_fn(|_| match dice.below(6) {
         0 => 0,
@@ -119,7 +120,7 @@ fn assert_shown(tree: &Bvh, order: &[u32], line: &Ray64, t_hit: f64, wanted: u32
 
 #[test]
 fn rays_aimed_at_boxes_meet_them() {
-    let mut dice = Dice(1);
+    let mut dice = TestRng::new(1);
     let mut rays = 0;
     for round in 0..6000 {
         let grid = [8, 1000, 1 << 24, 1 << 40][round % 4];
@@ -171,7 +172,7 @@ fn rays_from_anywhere_meet_a_point() {
 
 #[test]
 fn rays_along_edges_and_in_faces_meet_them() {
-    let mut dice = Dice(2);
+    let mut dice = TestRng::new(2);
     for _ in 0..6000 {
         let boxes = boxes(&mut dice, 64);
         let boxes = moved(&mut dice, boxes);
@@ -194,7 +195,7 @@ fn rays_along_edges_and_in_faces_meet_them() {
 
 #[test]
 fn rays_that_are_known_within_errors_meet_what_the_exact_ones_meet() {
-    let mut dice = Dice(3);
+    let mut dice = TestRng::new(3);
     for _ in 0..3000 {
         let boxes = boxes(&mut dice, 1000);
         let boxes = moved(&mut dice, boxes);
@@ -227,7 +228,7 @@ fn rays_that_are_known_within_errors_meet_what_the_exact_ones_meet() {
 
 #[test]
 fn points_are_found_in_their_boxes() {
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for round in 0..2000 {
         let scale = [0, -900, 900, -1040][round % 4];
         let boxes = boxes(&mut dice, 1000);

@@ -2,13 +2,14 @@
 
 mod common;
 
-use common::{Dice, tree};
+use common::tree;
 use durer_bvh::{Bvh, Corners, CornersOf, Frame, Leaf, Ray64, RefitError, Settings};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Ray, Vec3};
 use durer_surfaces::{Closest, LocalRay, Surface, Triangle};
+use durer_testkit::TestRng;
 
-fn boxes(dice: &mut Dice, count: usize, size: f64) -> Vec<Aabb> {
+fn boxes(dice: &mut TestRng, count: usize, size: f64) -> Vec<Aabb> {
     let mut cube = || {
         let centre = Point3::from([0, 1, 2].map(|_| size * (dice.unit() - 0.5)));
         Aabb::centred(centre, Vec3::from([0, 1, 2].map(|_| 0.03 * size * dice.unit())))
@@ -18,7 +19,7 @@ fn boxes(dice: &mut Dice, count: usize, size: f64) -> Vec<Aabb> {
 
 #[test]
 fn boxes_that_moved_are_found_where_they_are() {
-    let mut dice = Dice(21);
+    let mut dice = TestRng::new(21);
     // To larger and smaller units, and to the ends of f64's range.
     for (count, size) in [(1, 1.0), (9, 1e6), (700, 1e-9), (20_000, 3.0), (700, 1e300), (700, 1e-305)] {
         let (mut tree, order) = tree(&boxes(&mut dice, count, 1.0));
@@ -51,7 +52,7 @@ fn boxes_that_moved_are_found_where_they_are() {
     }
 }
 
-fn triangles(dice: &mut Dice, count: usize, size: f64) -> Vec<Corners> {
+fn triangles(dice: &mut TestRng, count: usize, size: f64) -> Vec<Corners> {
     let mut corner = |about: Point3, r: f64| about + Vec3::from([0, 1, 2].map(|_| r * (dice.unit() - 0.5)));
     let mut one = || {
         let a = corner(Point3::ORIGIN, size);
@@ -102,7 +103,7 @@ fn closest(tree: &Bvh, order: &[u32], shape: &[Corners], ray: &Ray) -> Option<(f
 
 #[test]
 fn triangles_that_moved_are_met_where_they_are() {
-    let mut dice = Dice(22);
+    let mut dice = TestRng::new(22);
     // With corners that f32 holds exactly, and rounded.
     for (count, size, is_held) in [(1, 1.0, false), (300, 1.0, true), (300, 1e5, false), (3000, 0.1, true)] {
         let mut shape = |size: f64| {
@@ -148,7 +149,7 @@ fn triangles_that_moved_are_met_where_they_are() {
 
 #[test]
 fn several_kinds_go_and_come_back() {
-    let mut dice = Dice(24);
+    let mut dice = TestRng::new(24);
     // Kinds of boxes and of triangles, and an empty kind.
     let kinds: [(usize, bool); 6] = [(60, false), (500, true), (0, true), (3, false), (90, true), (0, false)];
     let mut scene = |size: f64| kinds.map(|(count, _)| triangles(&mut dice, count, size));
@@ -182,7 +183,7 @@ fn several_kinds_go_and_come_back() {
 
 #[test]
 fn what_no_box_holds_is_named_and_changes_nothing() {
-    let mut dice = Dice(23);
+    let mut dice = TestRng::new(23);
     let places = boxes(&mut dice, 100, 1.0);
     let (mut tree, order) = tree(&places);
     let before = tree.clone();

@@ -6,11 +6,12 @@
 
 mod common;
 
-use common::Dice;
+use common::Draws;
 use core::cmp::Ordering;
 use durer_bvh::{Bvh, Frame, Leaf, Ray64, Settings};
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Isa, Point3, Vec3};
+use durer_testkit::TestRng;
 
 type Place = [i64; 3];
 type Triangle = [Place; 3];
@@ -70,10 +71,10 @@ impl Crossing {
 }
 
 /// Triangles, none of them degenerate, some of which share edges and vertices.
-fn scene(dice: &mut Dice, grid: i64) -> Vec<Triangle> {
+fn scene(dice: &mut TestRng, grid: i64) -> Vec<Triangle> {
     // From triangles as large as the scene to triangles at the resolution of f32.
     let spread = 1 + (grid >> dice.below(22));
-    let corner = |dice: &mut Dice, about: Place, size: i64| -> Place {
+    let corner = |dice: &mut TestRng, about: Place, size: i64| -> Place {
         core::array::from_fn(|i| (about[i] + dice.about(size)).clamp(-grid, grid))
     };
     let mut triangles: Vec<Triangle> = Vec::new();
@@ -105,7 +106,7 @@ fn point(p: Place, k: i32) -> Point3 {
 }
 
 /// A ray from an integer point at a vertex, at the middle of an edge or at an inner point.
-fn aim(dice: &mut Dice, v: &Triangle, grid: i64) -> (Place, Place) {
+fn aim(dice: &mut TestRng, v: &Triangle, grid: i64) -> (Place, Place) {
     // Twice the target, so that midpoints are integers.
     let [a, b, c] = *v;
     let target: Place = match dice.below(4) {
@@ -144,7 +145,7 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
     let (mut offered, mut hits, mut trusted, mut known) = (0_u64, 0_u64, 0_u64, 0_u64);
     let mut shared = 0;
     for seed in 0..seeds {
-        let mut dice = Dice(seed);
+        let mut dice = TestRng::new(seed);
         // f32 holds the coordinates of the first three.
         let grid = [6, 1000, 1 << 20, 1 << 26][seed as usize % 4];
         // Rays of the first two exponents use the f32 setup.
@@ -154,7 +155,7 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
             continue;
         }
         // Half of the scenes are far from the origin: sides and parameters do not change.
-        let place = common::place(&mut Dice(!seed), 50);
+        let place = common::place(&mut TestRng::new(!seed), 50);
         let point = |p: Place| point([0, 1, 2].map(|i| p[i] + place[i]), k);
         let corners = |n: u32| triangles[n as usize].map(point);
         let all = triangles.iter().flatten().map(|&v| point(v));
@@ -259,8 +260,8 @@ fn the_filter_is_right(seeds: u64, settings: &Settings) -> usize {
 /// The cost of a mesh does not depend on what else the tree holds, or could hold.
 #[test]
 fn triangles_fill_their_blocks_beside_other_things() {
-    let mut dice = Dice(5);
-    let corner = |i: i64, j: i64, dice: &mut Dice| [8 * i, 8 * j, dice.about(3)];
+    let mut dice = TestRng::new(5);
+    let corner = |i: i64, j: i64, dice: &mut TestRng| [8 * i, 8 * j, dice.about(3)];
     let heights: Vec<Place> = (0..40 * 40).map(|n| corner(n / 40, n % 40, &mut dice)).collect();
     let at = |i: usize, j: usize| heights[40 * i + j];
     let cells = (0..39 * 39).map(|n| (n / 39, n % 39));

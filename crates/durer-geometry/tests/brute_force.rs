@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Dice, both, fill, ground, rays};
+use common::{Draws, both, fill, ground, rays};
 use durer_geometry::{Builder, Compound, CompoundBuilder, Geometry, Hit, Part, Settings};
 use durer_math::kernels::Path;
 use durer_math::{Aabb, Isa, Point3, Ray, Shaft, Vec3, elementary};
@@ -11,6 +11,7 @@ use durer_surfaces::{
     Accelerate, AxisBox, CappedCylinder, DynSurface, LocalPoint, LocalRay, Mesh, MeshData, Need, Root, Side,
     Sink, Solidity, Sphere, Surface, SurfacePoint, Triangle,
 };
+use durer_testkit::TestRng;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -42,24 +43,24 @@ fn mixed_surfaces() {
     let mut crossings = 0;
     for seed in 0..6 {
         let (tree, flat) = both(|builder| {
-            let mut dice = Dice(seed);
+            let mut dice = TestRng::new(seed);
             let count = [1, 7, 60, 400][seed as usize % 4];
             fill(builder, &mut dice, count, seed % 2 == 0);
             if seed > 3 {
                 builder.add(ground());
             }
         });
-        crossings += assert_same(&tree, &flat, &rays(&mut Dice(100 + seed), 250));
+        crossings += assert_same(&tree, &flat, &rays(&mut TestRng::new(100 + seed), 250));
     }
     assert!(crossings > 2000, "{crossings} crossings test little");
 }
 
 /// Small triangles and large ones through them, single and as a mesh, a solid of long triangles,
 /// and other surfaces.
-fn fill_with_triangles(builder: &mut Builder, dice: &mut Dice) {
+fn fill_with_triangles(builder: &mut Builder, dice: &mut TestRng) {
     for i in 0..600 {
         let (a, size) = (dice.point(4.0), if i % 12 == 0 { 6.0 } else { 0.2 });
-        if let Ok(triangle) = Triangle::new([a, a + dice.vector(size), a + dice.vector(0.2)]) {
+        if let Ok(triangle) = Triangle::new([a, a + (dice.vector() * size), a + (dice.vector() * 0.2)]) {
             builder.add(triangle);
         }
     }
@@ -86,7 +87,7 @@ fn trees_of_every_quality() {
         for with_ground in [false, true] {
             let (tree, flat) = both(|builder| {
                 *builder = core::mem::take(builder).settings(settings);
-                fill_with_triangles(builder, &mut Dice(51));
+                fill_with_triangles(builder, &mut TestRng::new(51));
                 if with_ground {
                     builder.add(ground());
                 }
@@ -94,7 +95,7 @@ fn trees_of_every_quality() {
             let stats = tree.stats();
             let shared = stats.tree.entries as u64 + stats.beside - stats.primitives;
             assert!(shared <= most && (shared > 0) == (most > 0), "{shared} triangles stand twice");
-            let crossings = assert_same(&tree, &flat, &rays(&mut Dice(52), 400));
+            let crossings = assert_same(&tree, &flat, &rays(&mut TestRng::new(52), 400));
             assert!(crossings > 4000, "{crossings} crossings test little");
         }
     }
@@ -104,13 +105,13 @@ fn trees_of_every_quality() {
 fn all_instruction_sets() {
     let build = |isa: Isa, flat: bool| {
         let mut builder = Geometry::builder().isa(isa);
-        fill(&mut builder, &mut Dice(9), 150, true);
+        fill(&mut builder, &mut TestRng::new(9), 150, true);
         if flat {
             builder = builder.without_tree();
         }
         builder.build().unwrap()
     };
-    let rays = rays(&mut Dice(10), 200);
+    let rays = rays(&mut TestRng::new(10), 200);
     let reference = build(Isa::REFERENCE, true);
     for isa in Isa::available() {
         let tree = build(isa, false);
@@ -127,7 +128,7 @@ fn all_instruction_sets() {
 fn nested_instances() {
     let (tree, flat) = {
         let build = |flat: bool| {
-            let mut dice = Dice(21);
+            let mut dice = TestRng::new(21);
             let finish = |mut builder: Builder| {
                 if flat {
                     builder = builder.without_tree();
@@ -154,7 +155,7 @@ fn nested_instances() {
         (build(false), build(true))
     };
     assert_eq!((tree.depth(), tree.placements()), (2, 1 + 6 * (1 + 5)));
-    let crossings = assert_same(&tree, &flat, &rays(&mut Dice(22), 300));
+    let crossings = assert_same(&tree, &flat, &rays(&mut TestRng::new(22), 300));
     assert!(crossings > 300, "{crossings} crossings test little");
 }
 
@@ -168,16 +169,16 @@ fn batches_on_any_number_of_threads() {
 
 fn batches_of(things: usize, count: usize) {
     let mut builder = Geometry::builder();
-    fill(&mut builder, &mut Dice(31), things, things < 1000);
+    fill(&mut builder, &mut TestRng::new(31), things, things < 1000);
     builder.add(ground());
     let world = builder.build().unwrap();
-    let mut rays = rays(&mut Dice(32), count);
+    let mut rays = rays(&mut TestRng::new(32), count);
     // Some rays are neighbours, and form packets where they can.
-    let mut dice = Dice(33);
+    let mut dice = TestRng::new(33);
     for some in rays.chunks_mut(24) {
         let one = some[0];
         for ray in some.iter_mut().skip(8) {
-            let bend = dice.vector(0.005 * one.direction.max_abs());
+            let bend = dice.vector() * (0.005 * one.direction.max_abs());
             *ray = Ray::new(one.origin, one.direction + bend).with_range(one.t_min, one.t_max);
         }
     }
@@ -210,27 +211,27 @@ fn builds_on_any_number_of_threads_answer_alike() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut builder = Geometry::builder();
-            fill(&mut builder, &mut Dice(41), 20_000, false);
+            fill(&mut builder, &mut TestRng::new(41), 20_000, false);
             builder.build().unwrap()
         })
     };
     let (one, three) = (on(1), on(3));
     assert!(one.tree() == three.tree());
     // Even the places in memory are equal.
-    for ray in rays(&mut Dice(42), 300) {
+    for ray in rays(&mut TestRng::new(42), 300) {
         assert_eq!(one.closest(&ray), three.closest(&ray));
     }
 }
 
 #[test]
 fn extreme_rays_and_sizes() {
-    let mut dice = Dice(51);
+    let mut dice = TestRng::new(51);
     let far = Vec3::new(1e6, -3e4, 2e3);
     for (scale, place) in
         [(1.0, Vec3::ZERO), (1e-150, Vec3::ZERO), (1e150, Vec3::ZERO), (1.0, far), (1e-6, far)]
     {
         let (tree, flat) = both(|builder| {
-            let mut dice = Dice(52);
+            let mut dice = TestRng::new(52);
             for _ in 0..60 {
                 let c = dice.point(4.0).map(|x| x * scale) + place;
                 builder.add(Sphere::new(c, (0.5 + 0.4 * dice.signed()) * scale).unwrap());
@@ -239,14 +240,14 @@ fn extreme_rays_and_sizes() {
         let mut crossings = 0;
         for _ in 0..600 {
             // Aimed from 2^k sizes away, in steps of 2^j sizes.
-            let power = |dice: &mut Dice, most: u64| {
+            let power = |dice: &mut TestRng, most: u64| {
                 let halves = dice.below(2 * most) as i32 - most as i32;
                 durer_math::eft::scale2(1.0, halves)
             };
             let far = power(&mut dice, 60);
             let step = power(&mut dice, 400);
             let target = dice.point(3.0).map(|x| x * scale) + place;
-            let way = dice.vector(1.0);
+            let way = dice.vector();
             let origin = target - way * (far * scale);
             let direction = way * step;
             let ray = Ray::new(origin, direction);
@@ -257,7 +258,7 @@ fn extreme_rays_and_sizes() {
         assert!(crossings > 200, "{crossings} crossings at scale {scale}, moved by {place:?}");
     }
     // Crossings beyond the range of f64 have no parameter to compare, but nothing panics.
-    let (tree, _) = both(|builder| fill(builder, &mut Dice(53), 40, true));
+    let (tree, _) = both(|builder| fill(builder, &mut TestRng::new(53), 40, true));
     let wild = [0.0, -0.0, 5e-324, 1e-310, 1e-160, 1.0, 4.0, 1e17, 1e160, f64::MAX];
     for _ in 0..4000 {
         let mut x =
@@ -276,10 +277,10 @@ fn bundles_of_rays() {
     let (mut shared, mut hits) = (0, 0);
     for seed in 0..4 {
         let (tree, _) = both(|builder| {
-            fill(builder, &mut Dice(seed), [3, 20, 60, 200][seed as usize], seed % 2 == 0);
+            fill(builder, &mut TestRng::new(seed), [3, 20, 60, 200][seed as usize], seed % 2 == 0);
             builder.add(ground());
         });
-        for ray in rays(&mut Dice(200 + seed), 250) {
+        for ray in rays(&mut TestRng::new(200 + seed), 250) {
             if !ray.is_valid() || ray.t_min != 0.0 {
                 continue;
             }
@@ -388,10 +389,10 @@ fn asked(
 #[test]
 fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
     let p = Point3::new;
-    let mut dice = Dice(8);
+    let mut dice = TestRng::new(8);
     let rays: Vec<Ray> = (0..400)
         .map(|_| {
-            let way = dice.vector(1.0);
+            let way = dice.vector();
             let origin = (way * (4.0 / way.length())).to_point();
             Ray::new(origin, dice.point(1.0) - origin)
         })
@@ -421,7 +422,7 @@ fn ten_thousand_leaves_are_asked_at_most_ten_times_as_often_as_a_hundred() {
                 csg.leaf(counted(DynSurface::new(sheet))).unwrap()
             });
             let sheets: Vec<Part> = sheets.collect();
-            let mut dice = Dice(9);
+            let mut dice = TestRng::new(9);
             let craters = (0..count / 2).map(|_| {
                 let crater = Sphere::new(dice.point(1.0), 1.2 / elementary::cbrt(f64::from(count))).unwrap();
                 csg.leaf(counted(DynSurface::new(crater))).unwrap()

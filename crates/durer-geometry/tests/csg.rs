@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::Dice;
+use common::Draws;
 use core::cmp::Ordering;
 use durer_geometry::{Compound, CompoundBuilder, Geometry, Part};
 use durer_math::{Affine, Point3, Ray, Vec3};
@@ -12,6 +12,7 @@ use durer_surfaces::{
     AxisBox, CappedCylinder, Complement, DynSurface, Ellipsoid, LocalPoint, Placed, Plane, Quadric, RootKind,
     Side, Sphere,
 };
+use durer_testkit::TestRng;
 
 /// A solid with its witness.
 #[derive(Clone, Debug)]
@@ -158,7 +159,7 @@ impl Expr {
     }
 
     /// Turns every other union into one with inner faces.
-    fn with_inner_faces(self, dice: &mut Dice) -> Expr {
+    fn with_inner_faces(self, dice: &mut TestRng) -> Expr {
         let mut each =
             |parts: Vec<Expr>| parts.into_iter().map(|p| p.with_inner_faces(dice)).collect::<Vec<_>>();
         match self {
@@ -204,7 +205,7 @@ impl Expr {
     }
 }
 
-fn random_expr(dice: &mut Dice, first: usize, count: usize) -> Expr {
+fn random_expr(dice: &mut TestRng, first: usize, count: usize) -> Expr {
     if count == 1 {
         let leaf = Expr::Leaf(first);
         return if dice.below(8) == 0 { Expr::Not(Box::new(leaf)) } else { leaf };
@@ -394,12 +395,12 @@ impl Body {
     }
 }
 
-fn small(dice: &mut Dice) -> f64 {
+fn small(dice: &mut TestRng) -> f64 {
     // Coarse numbers: faces and edges coincide often.
     (1 + dice.below(4)) as f64 * 0.5
 }
 
-fn random_leaf(dice: &mut Dice) -> Leaf {
+fn random_leaf(dice: &mut TestRng) -> Leaf {
     let c = dice.grid();
     let c = Point3::new(c.x * 0.5, c.y * 0.5, c.z * 0.5);
     match dice.below(8) {
@@ -427,8 +428,8 @@ fn random_leaf(dice: &mut Dice) -> Leaf {
     }
 }
 
-fn random_ray(dice: &mut Dice) -> Ray {
-    let axis = |dice: &mut Dice| {
+fn random_ray(dice: &mut TestRng) -> Ray {
+    let axis = |dice: &mut TestRng| {
         let mut d = Vec3::ZERO;
         d[dice.below(3) as usize] = if dice.below(2) == 0 { 1.0 } else { -1.0 };
         d
@@ -436,13 +437,13 @@ fn random_ray(dice: &mut Dice) -> Ray {
     let start = dice.grid();
     let start = Point3::new(start.x * 0.25, start.y * 0.25, start.z * 0.25);
     match dice.below(4) {
-        0 => Ray::new(start - axis(dice) * 8.0, dice.vector(1.0)),
+        0 => Ray::new(start - axis(dice) * 8.0, dice.vector()),
         1 => {
             let d = axis(dice);
             Ray::new(start - d * 8.0, d)
         }
         2 => Ray::new(dice.point(6.0), start - dice.point(6.0)),
-        _ => Ray::new(start, dice.vector(1.0)),
+        _ => Ray::new(start, dice.vector()),
     }
 }
 
@@ -450,7 +451,7 @@ fn random_ray(dice: &mut Dice) -> Ray {
 fn random_trees_are_what_their_leaves_say() {
     let mut met = 0;
     for seed in 0..400 {
-        let mut dice = Dice(seed);
+        let mut dice = TestRng::new(seed);
         let count = 1 + dice.below(7) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
         let expr = random_expr(&mut dice, 0, count);
@@ -466,7 +467,7 @@ fn random_trees_are_what_their_leaves_say() {
 fn unions_keep_their_inner_faces() {
     let (mut met, mut met_without) = (0, 0);
     for seed in 0..600 {
-        let mut dice = Dice(90_000 + seed);
+        let mut dice = TestRng::new(90_000 + seed);
         let count = 2 + dice.below(7) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
         let plain = random_expr(&mut dice, 0, count);
@@ -488,7 +489,7 @@ fn unions_keep_their_inner_faces() {
 fn trees_of_many_leaves_are_what_their_leaves_say() {
     let mut met = 0;
     for seed in 0..16 {
-        let mut dice = Dice(7000 + seed);
+        let mut dice = TestRng::new(7000 + seed);
         // With so many leaves the search goes piece by piece.
         let count = 64 + dice.below(64) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
@@ -544,7 +545,7 @@ fn nothing_is_left_of_a_solid_without_itself() {
     for leaf in kinds() {
         let (a, b) = two(0, 1);
         let empty = body(vec![leaf.clone(), leaf], Expr::Minus(a, b));
-        let mut dice = Dice(3);
+        let mut dice = TestRng::new(3);
         for _ in 0..300 {
             let ray = random_ray(&mut dice);
             assert_eq!(empty.scene.all(&ray), []);
@@ -582,7 +583,7 @@ fn identities_hold_for_every_pair_of_kinds() {
                 vec![a.clone(), b.clone(), a.clone(), b.clone()],
                 Expr::Any(vec![minus(leaf(0), leaf(1)), Expr::All(vec![leaf(2), leaf(3)])]),
             );
-            let mut dice = Dice((i * 100 + j) as u64);
+            let mut dice = TestRng::new((i * 100 + j) as u64);
             for _ in 0..60 {
                 let ray = random_ray(&mut dice);
                 let own = told(&alone.scene, &ray);
@@ -652,7 +653,7 @@ fn differences_nest_a_hundred_deep() {
 #[test]
 fn points_are_in_where_the_expression_says() {
     for seed in 0..200 {
-        let mut dice = Dice(seed + 5000);
+        let mut dice = TestRng::new(seed + 5000);
         let count = 1 + dice.below(6) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
         let expr = random_expr(&mut dice, 0, count);
@@ -672,7 +673,7 @@ fn points_are_in_where_the_expression_says() {
 fn rays_leave_a_body_on_the_side_they_are_asked_for() {
     let mut left = 0;
     for seed in 0..200 {
-        let mut dice = Dice(seed + 900);
+        let mut dice = TestRng::new(seed + 900);
         let count = 2 + dice.below(5) as usize;
         let leaves: Vec<Leaf> = (0..count).map(|_| random_leaf(&mut dice)).collect();
         let expr = random_expr(&mut dice, 0, count);

@@ -6,7 +6,6 @@
 
 mod common;
 
-use common::Dice;
 use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_geometry::Geometry;
 use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
@@ -16,6 +15,7 @@ use durer_surfaces::{
     DynSurface, Isosurface, Julia, JuliaAlgebra, JuliaPower, JuliaSet, LevelSet, Placed, RootKind, Side,
     Sphere, Torus, Warp, superellipsoid,
 };
+use durer_testkit::TestRng;
 
 /// The radius of balls; `BALL` has points with integer coordinates on them.
 const R: f64 = 9.0;
@@ -189,7 +189,7 @@ fn pairs() -> Vec<Pair> {
 }
 
 /// Changed by an integer, by a few ulp, or by something between.
-fn nudged(dice: &mut Dice, v: Vec3) -> Vec3 {
+fn nudged(dice: &mut TestRng, v: Vec3) -> Vec3 {
     let mut moved = v;
     let axis = dice.below(3) as usize;
     let by = [0.0, 1.0, -1.0, 3.0, -16.0, 1e4, -1e8][dice.below(7) as usize];
@@ -198,7 +198,7 @@ fn nudged(dice: &mut Dice, v: Vec3) -> Vec3 {
 }
 
 /// A ray that begins on the surface, or passes it there: it touches it, runs in it, or leaves it.
-fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
+fn ray(dice: &mut TestRng, pair: &Pair) -> Ray {
     let p = Vec3::from(pair.on[dice.below(pair.on.len() as u64) as usize]);
     let normal = match pair.on.len() {
         5 => p,
@@ -218,12 +218,12 @@ fn ray(dice: &mut Dice, pair: &Pair) -> Ray {
         2 => n.cross(Vec3::X),
         3 => n.cross(Vec3::Z),
         4 => {
-            let tangent = n.cross(dice.vector(1.0));
+            let tangent = n.cross(dice.vector());
             tangent - n * (tangent.dot(n) / n.dot(n))
         }
         5 => normal,
         6 => -normal,
-        _ => dice.vector(1.0),
+        _ => dice.vector(),
     };
     let along = if along.max_abs() > 0.0 { along } else { Vec3::new(0.0, 1.0, 0.0) };
     let along = if dice.below(2) == 0 { nudged(dice, along) } else { along };
@@ -304,7 +304,7 @@ fn spans_of_formulas_are_bounded_and_clusters_are_no_more_than_tangents() {
     for pair in pairs() {
         let (mut spans, mut clusters, mut wrong) = (0, 0, 0);
         for seed in 0..count {
-            let ray = ray(&mut Dice(seed), &pair);
+            let ray = ray(&mut TestRng::new(seed), &pair);
             match check(&pair, &ray) {
                 Ok((s, c)) => (spans, clusters) = (spans + s, clusters + c),
                 Err(fault) => {

@@ -6,10 +6,10 @@
 
 mod common;
 
-use common::Dice;
 use durer_geometry::{EVERYTHING, Geometry, Settings};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{Mesh, MeshData};
+use durer_testkit::TestRng;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -122,13 +122,13 @@ fn moved(body: &Body, scale: f64, by: f64) -> (MeshData, Point3) {
 
 /// A ray from inside: half of them are aimed at vertices and at points of edges, and some along an
 /// axis.
-fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
+fn ray(dice: &mut TestRng, data: &MeshData, centre: Point3, room: f64) -> Ray {
     let place = if dice.below(2) == 0 {
         // Some start in one plane with corners of the mesh.
         let mut x = || (dice.below(9) as f64 - 4.0) * 0.125 * room;
         centre + Vec3::new(x(), x(), x())
     } else {
-        centre + dice.vector(0.57 * room)
+        centre + (dice.vector() * (0.57 * room))
     };
     let face = data.faces[dice.below(data.faces.len() as u64) as usize];
     let corner = |i: usize| data.vertices[face[i] as usize];
@@ -139,7 +139,7 @@ fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
             let axis = [Vec3::X, Vec3::Y, Vec3::Z][dice.below(3) as usize];
             Ray::new(place, if dice.below(2) == 0 { axis } else { -axis })
         }
-        _ => Ray::new(place, dice.vector(1.0)),
+        _ => Ray::new(place, dice.vector()),
     }
 }
 
@@ -150,7 +150,7 @@ fn ray(dice: &mut Dice, data: &MeshData, centre: Point3, room: f64) -> Ray {
 /// another one the any-hit query, which take as long.
 fn shoot(world: &Geometry, data: &MeshData, centre: Point3, room: f64, thousands: Range<u64>, name: &str) {
     thousands.into_par_iter().for_each(|seed| {
-        let mut dice = Dice(seed << 32);
+        let mut dice = TestRng::new(seed << 32);
         for i in 0..1000 {
             let ray = ray(&mut dice, data, centre, room);
             let all = world.all(&ray);

@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::{Dice, rays};
+use common::rays;
 use durer_geometry::{Geometry, Hit, ObjectId, PrimitiveId, RefitError, Settings};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Mesh, MeshData, Plane, Sphere, Triangle};
+use durer_testkit::TestRng;
 use std::sync::Arc;
 
 /// The content of a hit without its place in memory.
@@ -29,7 +30,7 @@ fn assert_same_answers(a: &Geometry, b: &Geometry, rays: &[Ray]) -> usize {
 }
 
 /// A closed strip of triangles around the z axis, with its caps: a solid.
-fn drum(dice: &mut Dice, sides: u32, size: f64) -> Mesh {
+fn drum(dice: &mut TestRng, sides: u32, size: f64) -> Mesh {
     let mut data = MeshData::default();
     for i in 0..sides {
         let (x, y) = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][(i % 4) as usize];
@@ -49,13 +50,13 @@ fn drum(dice: &mut Dice, sides: u32, size: f64) -> Mesh {
     Mesh::new(data).unwrap()
 }
 
-fn ball(dice: &mut Dice) -> Sphere {
+fn ball(dice: &mut TestRng) -> Sphere {
     Sphere::new(dice.point(4.0), 0.1 + 0.4 * dice.signed().abs()).unwrap()
 }
 
 #[test]
 fn what_moved_is_met_where_it_is() {
-    let mut dice = Dice(31);
+    let mut dice = TestRng::new(31);
     let small =
         Arc::new(Geometry::builder().with(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
     let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();
@@ -63,10 +64,11 @@ fn what_moved_is_met_where_it_is() {
         [(false, Settings::GOOD), (false, Settings::FAST), (false, Settings::BEST), (true, Settings::GOOD)]
     {
         for sides in [4, 40, 300] {
-            let seed = dice.next();
+            let seed = dice.bits();
             let old: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
             let new: Vec<Sphere> = (0..60).map(|_| ball(&mut dice)).collect();
-            let (mesh, bent) = (drum(&mut Dice(seed), sides, 0.9), drum(&mut Dice(seed + 1), sides, 1.3));
+            let (mesh, bent) =
+                (drum(&mut TestRng::new(seed), sides, 0.9), drum(&mut TestRng::new(seed + 1), sides, 1.3));
             let build = |balls: &[Sphere], mesh: &Mesh| {
                 let mut builder = Geometry::builder().settings(settings);
                 balls.iter().for_each(|b| {
@@ -101,9 +103,9 @@ fn what_moved_is_met_where_it_is() {
 
 #[test]
 fn what_cannot_be_followed_is_named_and_changes_nothing() {
-    let mut dice = Dice(32);
+    let mut dice = TestRng::new(32);
     let mesh = drum(&mut dice, 8, 1.0);
-    let build = || Geometry::builder().with(ball(&mut Dice(33))).with(mesh.clone()).build().unwrap();
+    let build = || Geometry::builder().with(ball(&mut TestRng::new(33))).with(mesh.clone()).build().unwrap();
     let mut geometry = build();
     let mut data = mesh.data().clone();
     // A face whose area becomes zero is no part any more.
@@ -121,7 +123,7 @@ fn what_cannot_be_followed_is_named_and_changes_nothing() {
 
 #[test]
 fn what_is_built_again_answers_as_what_is_built_anew() {
-    let mut dice = Dice(34);
+    let mut dice = TestRng::new(34);
     let small =
         Arc::new(Geometry::builder().with(Sphere::new(Point3::ORIGIN, 0.7).unwrap()).build().unwrap());
     let map = Affine::translation(Vec3::new(2.0, 1.0, 0.0)).unwrap();

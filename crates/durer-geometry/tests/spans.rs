@@ -2,13 +2,14 @@
 
 mod common;
 
-use common::{Dice, fill, ground, rays};
+use common::{Draws, fill, ground, rays};
 use durer_geometry::Geometry;
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     Algebraic, AxisBox, Bezier, Complement, CurvedPrism, Disc, DynSurface, Frustum, Placed, Prism, Quadric,
     Side, Sphere, SurfaceOfRevolution,
 };
+use durer_testkit::TestRng;
 use std::sync::Arc;
 
 /// The midpoint of an interval of the ray, if the interval is so long that rounding does not
@@ -53,12 +54,12 @@ fn spans_are_where_the_solids_are() {
     let mut spans = 0;
     for seed in 0..8 {
         let mut builder = Geometry::builder();
-        fill(&mut builder, &mut Dice(seed), 40, seed % 2 == 0);
+        fill(&mut builder, &mut TestRng::new(seed), 40, seed % 2 == 0);
         if seed > 5 {
             builder.add(ground());
         }
         let world = builder.build().unwrap();
-        for ray in rays(&mut Dice(50 + seed), 200) {
+        for ray in rays(&mut TestRng::new(50 + seed), 200) {
             spans += check(&world, &ray);
         }
     }
@@ -174,7 +175,7 @@ fn ranges_that_begin_at_a_touch() {
 /// and all numbers are exact.
 #[test]
 fn spans_do_not_depend_on_the_origin() {
-    fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut Dice, touches: &mut usize) {
+    fn try_solid<S: Algebraic + Clone + 'static>(solid: &S, dice: &mut TestRng, touches: &mut usize) {
         let solid = DynSurface::new(solid.clone());
         let turned = Geometry::builder().with(Complement(solid.clone())).build().unwrap();
         let world = Geometry::builder().with(solid).build().unwrap();
@@ -212,7 +213,7 @@ fn spans_do_not_depend_on_the_origin() {
             }
         }
     }
-    let (mut dice, mut touches) = (Dice(5), 0);
+    let (mut dice, mut touches) = (TestRng::new(5), 0);
     for r in [1.0, 2.0, 3.0] {
         try_solid(&Sphere::new(Point3::new(0.0, 0.0, 1.0 - r), r).unwrap(), &mut dice, &mut touches);
         try_solid(

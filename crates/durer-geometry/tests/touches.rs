@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::Dice;
 use durer_geometry::{Geometry, ObjectId, PrimitiveId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{Mesh, MeshData, RootKind, Side};
+use durer_testkit::TestRng;
 use std::sync::Arc;
 
 const EVERYTHING: u32 = u32::MAX;
@@ -72,8 +72,8 @@ fn every_query_follows_the_rule_in_every_direction() {
     let mut seen = [0; 3];
     for n in [1, 3] {
         let worlds = worlds(n);
-        let mut dice = Dice(u64::from(n));
-        let whole = |dice: &mut Dice, n: i64| [0, 1, 2].map(|_| dice.below(2 * n as u64 + 1) as i64 - n);
+        let mut dice = TestRng::new(u64::from(n));
+        let whole = |dice: &mut TestRng, n: i64| [0, 1, 2].map(|_| dice.below(2 * n as u64 + 1) as i64 - n);
         for _ in 0..2500 {
             let d = whole(&mut dice, 2);
             if d == [0; 3] {

@@ -2,13 +2,14 @@
 
 mod common;
 
-use common::{Dice, fill, ground, object, rays};
+use common::{Draws, fill, ground, object, rays};
 use durer_geometry::{BuildError, EVERYTHING, Geometry, ObjectId, PrimitiveId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
     AxisBox, Clip, DynSurface, EllipticCylinder, Frustum, Mesh, MeshData, Need, Placed, Plane, Quadric,
     Region, Side, Sphere,
 };
+use durer_testkit::TestRng;
 use std::sync::Arc;
 
 fn ball(x: f64, y: f64, z: f64, r: f64) -> Sphere {
@@ -139,10 +140,10 @@ fn masks_hide_surfaces_and_instances() {
 #[test]
 fn a_filter_sees_every_hit_and_may_stop() {
     let mut builder = Geometry::builder();
-    fill(&mut builder, &mut Dice(1), 200, true);
+    fill(&mut builder, &mut TestRng::new(1), 200, true);
     let world = builder.build().unwrap();
     let mut buffer = Vec::new();
-    for ray in rays(&mut Dice(2), 100) {
+    for ray in rays(&mut TestRng::new(2), 100) {
         let mut seen = Vec::new();
         assert!(!world.masked(EVERYTHING).any_where(&ray, |hit| {
             seen.push(*hit);
@@ -257,7 +258,7 @@ fn a_box_clipped_at_its_corner_is_entered_first() {
 
 #[test]
 fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
-    let mut dice = Dice(11);
+    let mut dice = TestRng::new(11);
     let (mut tied, mut hits) = (0, 0);
     for _ in 0..60 {
         // Several solids in one arena; rays from afar that cut off a corner or a rim by about an
@@ -283,7 +284,7 @@ fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
                 (on_rim, on_rim.to_vec() - Vec3::Z)
             };
             // Nearly across the outward direction.
-            let across = out.cross(dice.vector(1.0));
+            let across = out.cross(dice.vector());
             let (target, d) = (maps[map].point(target), maps[map].vector(across));
             let ray = Ray::new(target - d * 1e5, d);
             let all = world.all(&ray);
@@ -306,7 +307,7 @@ fn solids_are_entered_and_left_in_turn_where_t_cannot_tell() {
 #[test]
 fn an_instance_is_the_placed_surface() {
     // Sheared, mirrored, nested: the same bits as the wrapper type.
-    let mut dice = Dice(3);
+    let mut dice = TestRng::new(3);
     let mut crossings = 0;
     for _ in 0..40 {
         let (outer, inner) = (dice.affine(), dice.affine());
@@ -320,7 +321,7 @@ fn an_instance_is_the_placed_surface() {
         let centre = outer.point(inner.point(Point3::new(0.3, -0.2, 0.1)));
         for _ in 0..25 {
             let origin = dice.point(20.0);
-            let ray = Ray::new(origin, centre + dice.vector(1.0) - origin);
+            let ray = Ray::new(origin, centre + dice.vector() - origin);
             let (a, b) = (direct.all(&ray), world.all(&ray));
             assert_eq!(a.len(), b.len());
             for (x, y) in a.iter().zip(&b) {
@@ -395,9 +396,9 @@ fn the_faces_of_a_mesh_are_primitives() {
     builder.add_as(cube(), object(5), PrimitiveId(40), EVERYTHING);
     let world = builder.build().unwrap();
     assert_eq!(world.stats().primitives, 13);
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for _ in 0..300 {
-        let (a, b) = (dice.vector(0.99), dice.vector(0.99));
+        let (a, b) = ((dice.vector() * 0.99), (dice.vector() * 0.99));
         // From a point inside outward, both ways: one crossing each.
         let ray = Ray::new(a.to_point(), b).with_range(f64::NEG_INFINITY, f64::INFINITY);
         let hits: Vec<_> = world.all(&ray).into_iter().filter(|h| h.object == ObjectId(5)).collect();
@@ -419,7 +420,7 @@ fn spawned_rays_do_not_meet_where_they_start() {
     let mut builder = Geometry::builder();
     builder.add(ball(0.0, 0.0, 0.0, 1.0)).add(cube());
     let inner = Arc::new(builder.build().unwrap());
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     let mut builder = Geometry::builder();
     builder.add(ball(0.0, 0.0, 0.0, 1e3));
     for _ in 0..10 {

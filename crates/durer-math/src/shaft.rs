@@ -212,27 +212,28 @@ fn clip(room: f64, slope: f64, enter: &mut f64, exit: &mut f64) {
 mod tests {
     use super::*;
     use crate::{Point3, Ray};
+    use durer_testkit::TestRng;
 
-    /// Random integers, so that points of rays are exact.
-    struct Dice(u64);
+    /// Draws that only these tests need.
+    trait Draws {
+        fn about(&mut self, n: u64) -> f64;
+        fn lattice_point(&mut self, n: u64) -> Point3;
+        /// A box, mostly with a width of zero on some axis.
+        fn bounds(&mut self, n: u64) -> Aabb;
+        fn corner(&mut self, b: &Aabb) -> Point3;
+    }
 
-    impl Dice {
-        fn below(&mut self, n: u64) -> u64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 33) % n
-        }
-
+    impl Draws for TestRng {
         fn about(&mut self, n: u64) -> f64 {
             self.below(2 * n + 1) as f64 - n as f64
         }
 
-        fn point(&mut self, n: u64) -> Point3 {
+        fn lattice_point(&mut self, n: u64) -> Point3 {
             Point3::new(self.about(n), self.about(n), self.about(n))
         }
 
-        /// A box, mostly with a width of zero on some axis.
         fn bounds(&mut self, n: u64) -> Aabb {
-            let (a, b) = (self.point(n), self.point(n));
+            let (a, b) = (self.lattice_point(n), self.lattice_point(n));
             let keep = self.below(8);
             let b = Point3::from([0, 1, 2].map(|i| if keep >> i & 1 == 1 { a[i] } else { b[i] }));
             Aabb::from_points([a, b])
@@ -246,7 +247,7 @@ mod tests {
     #[test]
     fn no_box_that_a_ray_of_the_bundle_meets_is_missed() {
         let (mut met, mut missed, mut missed_by_lanes) = (0, 0, 0);
-        let mut dice = Dice(1);
+        let mut dice = TestRng::new(1);
         for _ in 0..20_000 {
             let start = dice.bounds(9);
             let toward = dice.bounds(9);
@@ -294,12 +295,12 @@ mod tests {
     #[test]
     fn no_plane_that_a_ray_of_the_bundle_crosses_is_missed() {
         let (mut crossed, mut missed) = (0, 0);
-        let mut dice = Dice(2);
+        let mut dice = TestRng::new(2);
         for _ in 0..20_000 {
             let (start, end) = (dice.bounds(9), dice.bounds(9));
             let shaft = Shaft::between(start, end);
             let (a, b) = (dice.corner(&start), dice.corner(&end));
-            let n = dice.point(4).to_vec();
+            let n = dice.lattice_point(4).to_vec();
             let on = a + (b - a) * (dice.below(5) as f64 / 4.0);
             assert!(shaft.may_cross(n, n.dot(on.to_vec()), 0.0), "{shaft:?} {n:?} {on:?}");
             crossed += 1;
@@ -316,12 +317,12 @@ mod tests {
     #[test]
     fn no_plane_ahead_of_endless_rays_is_missed() {
         let (mut crossed, mut missed) = (0, 0);
-        let mut dice = Dice(3);
+        let mut dice = TestRng::new(3);
         for _ in 0..20_000 {
             let (start, way) = (dice.bounds(9), dice.bounds(9));
             let shaft = Shaft::new(start, way.min.to_vec(), way.max.to_vec());
             let (o, d) = (dice.corner(&start), dice.corner(&way).to_vec());
-            let (n, h) = (dice.point(4).to_vec(), dice.about(60));
+            let (n, h) = (dice.lattice_point(4).to_vec(), dice.about(60));
             let (height, slope) = (n.dot(o.to_vec()) - h, n.dot(d));
             if height * slope < 0.0 || height == 0.0 {
                 crossed += 1;

@@ -4,26 +4,32 @@
 mod common;
 
 use astro_float::{BigFloat, Consts, RoundingMode};
-use common::{Dice, above, below, number, rat, wild};
+use common::{above, below, number, rat, wild};
 use durer_math::interval::elementary::{Defined, Range, ULPS};
 use durer_math::{Dual, F8, Function, I8, Interval, Number, elementary};
+use durer_testkit::TestRng;
 use proptest::prelude::*;
 
 /// Bits of the witness.
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
 
-impl Dice {
+/// Draws that only these tests need.
+trait Draws {
     /// Numbers of all sizes up to `most`, near integers and near multiples of a quarter turn.
+    fn number(&mut self, most: f64) -> f64;
+}
+
+impl Draws for TestRng {
     fn number(&mut self, most: f64) -> f64 {
         let quarter = core::f64::consts::FRAC_PI_2;
         let x = match self.bits() % 6 {
-            0 => self.unit() * most,
-            1 => self.unit() * most.min(4.0),
-            2 => self.unit() * most * elementary::powi(0.5, (self.bits() % 200) as i32),
-            3 => (self.unit() * most.min(20.0)).round(),
-            4 => (self.unit() * most.min(40.0) / quarter).round() * quarter,
-            _ => self.unit() * most.min(1.0),
+            0 => self.signed() * most,
+            1 => self.signed() * most.min(4.0),
+            2 => self.signed() * most * elementary::powi(0.5, (self.bits() % 200) as i32),
+            3 => (self.signed() * most.min(20.0)).round(),
+            4 => (self.signed() * most.min(40.0) / quarter).round() * quarter,
+            _ => self.signed() * most.min(1.0),
         };
         match self.bits() % 4 {
             0 => x.next_up(),
@@ -103,15 +109,15 @@ fn ulps(a: f64, b: &BigFloat) -> f64 {
 fn intervals_hold_the_exact_values() {
     let mut constants = Consts::new().unwrap();
     for case in cases() {
-        let mut dice = Dice(case.name.len() as u64);
+        let mut dice = TestRng::new(case.name.len() as u64);
         let mut worst = 0.0_f64;
         for _ in 0..1000 {
-            let draw = |dice: &mut Dice| dice.number(case.most.min(1e9)).clamp(case.least, case.most);
+            let draw = |dice: &mut TestRng| dice.number(case.most.min(1e9)).clamp(case.least, case.most);
             let (a, b) = (draw(&mut dice), draw(&mut dice));
             let wide = if dice.bits().is_multiple_of(2) { b } else { a + (b - a) * 1e-3 };
             let box_ = Interval::new(a.min(wide), a.max(wide));
             let (range, _) = (case.interval)(box_);
-            for x in [box_.lo, box_.hi, box_.mid(), box_.lo + box_.width() * 0.3 * dice.unit().abs()] {
+            for x in [box_.lo, box_.hi, box_.mid(), box_.lo + box_.width() * 0.3 * dice.signed().abs()] {
                 if !box_.contains(x) {
                     continue;
                 }
@@ -136,7 +142,7 @@ fn intervals_hold_the_exact_values() {
 #[test]
 fn powers_and_angles_hold_the_exact_values() {
     let mut constants = Consts::new().unwrap();
-    let mut dice = Dice(77);
+    let mut dice = TestRng::new(77);
     let mut worst = 0.0_f64;
     for _ in 0..2000 {
         let (x, y) = (dice.number(50.0).abs(), dice.number(20.0));
@@ -145,7 +151,7 @@ fn powers_and_angles_hold_the_exact_values() {
             continue;
         }
         let exact = big(x).ln(2 * P, RM, &mut constants).mul(&big(y), 2 * P, RM).exp(P, RM, &mut constants);
-        let reach = dice.unit().abs() * 0.1;
+        let reach = dice.signed().abs() * 0.1;
         let (a, b) =
             (Interval::new(x * (1.0 - reach), x * (1.0 + reach)), Interval::new(y - reach, y + reach));
         let (range, _) = a.pow(b);
@@ -191,7 +197,7 @@ fn powers_and_angles_hold_the_exact_values() {
 /// as partly undefined.
 #[test]
 fn lanes_hold_the_values_of_points() {
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     let functions = [
         Function::Sin,
         Function::Cos,
@@ -220,7 +226,7 @@ fn lanes_hold_the_values_of_points() {
                 let b = match dice.bits() % 4 {
                     0 => a,
                     1 => dice.number(30.0),
-                    2 => a + dice.unit() * 1e-6,
+                    2 => a + dice.signed() * 1e-6,
                     _ => 0.0,
                 };
                 (lo.0[i], hi.0[i]) = (a.min(b), a.max(b));
@@ -283,11 +289,11 @@ fn lanes_hold_the_values_of_points() {
 /// only at its lower end, has the remainders of its ends.
 #[test]
 fn remainders_are_those_of_the_ends() {
-    let mut dice = Dice(41);
+    let mut dice = TestRng::new(41);
     let mut exact = 0;
     for _ in 0..200_000 {
         let (a, b) = (dice.number(60.0), dice.number(8.0).abs());
-        let wide = if dice.bits().is_multiple_of(3) { 0.0 } else { dice.unit().abs() * b * 1.5 };
+        let wide = if dice.bits().is_multiple_of(3) { 0.0 } else { dice.signed().abs() * b * 1.5 };
         let (x, y) = (Interval { lo: a, hi: a + wide }, Interval { lo: b, hi: b });
         if b == 0.0 {
             continue;

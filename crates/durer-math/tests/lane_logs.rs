@@ -1,12 +1,10 @@
 //! Logarithms and powers of two in lanes keep their bounds against multi-precision values, with the
 //! same bits on every path.
 
-mod common;
-
 use astro_float::{BigFloat, Consts, RoundingMode};
-use common::Dice;
 use durer_math::lane_logs::{EXP2_ERROR, LOG2_ERROR, exp2, log2, power, power_error};
 use durer_math::{F8, I8, Interval, Isa, Number, U};
+use durer_testkit::TestRng;
 
 const P: usize = 256;
 const RM: RoundingMode = RoundingMode::ToEven;
@@ -39,11 +37,11 @@ fn on_all_paths(f: impl Fn(F8) -> F8 + Copy, x: F8) -> F8 {
 #[test]
 fn logarithms_keep_their_bound() {
     let mut constants = Consts::new().unwrap();
-    let (mut dice, mut worst) = (Dice(1), 0.0_f64);
+    let (mut dice, mut worst) = (TestRng::new(1), 0.0_f64);
     let root = core::f64::consts::FRAC_1_SQRT_2;
     for _ in 0..600 {
         let x = F8(core::array::from_fn(|_| {
-            let unit = dice.unit();
+            let unit = dice.signed();
             match dice.bits() % 8 {
                 0 => 1.0 + unit * durer_math::scale::pow2(-((dice.bits() % 53) as i32)),
                 1 => root * (1.0 + unit * f64::EPSILON * 8.0),
@@ -70,10 +68,10 @@ fn logarithms_keep_their_bound() {
 #[test]
 fn powers_keep_their_bound() {
     let mut constants = Consts::new().unwrap();
-    let (mut dice, mut worst) = (Dice(2), 0.0_f64);
+    let (mut dice, mut worst) = (TestRng::new(2), 0.0_f64);
     for _ in 0..600 {
         let t = F8(core::array::from_fn(|_| {
-            let unit = dice.unit();
+            let unit = dice.signed();
             match dice.bits() % 6 {
                 0 => unit * 1020.0,
                 1 => unit * durer_math::scale::pow2(-((dice.bits() % 60) as i32)),
@@ -98,15 +96,15 @@ fn powers_keep_their_bound() {
 #[test]
 fn any_power_keeps_its_bound() {
     let mut constants = Consts::new().unwrap();
-    let (mut dice, mut worst) = (Dice(3), 0.0_f64);
+    let (mut dice, mut worst) = (TestRng::new(3), 0.0_f64);
     for _ in 0..800 {
         let p = match dice.bits() % 4 {
-            0 => dice.unit() * 500.0,
-            1 => dice.unit(),
-            _ => dice.unit() * 10.0,
+            0 => dice.signed() * 500.0,
+            1 => dice.signed(),
+            _ => dice.signed() * 10.0,
         };
         let x = F8(core::array::from_fn(|_| {
-            let unit = dice.unit();
+            let unit = dice.signed();
             match dice.bits() % 5 {
                 0 => 1.0 + unit * durer_math::scale::pow2(-((dice.bits() % 53) as i32)),
                 1 => (1.0 + unit.abs()) * durer_math::scale::pow2((dice.bits() % 1900) as i32 - 950),
@@ -134,10 +132,10 @@ fn any_power_keeps_its_bound() {
 #[test]
 fn powers_of_intervals_hold_the_exact_ones() {
     let mut constants = Consts::new().unwrap();
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for _ in 0..600 {
         let mut base = || {
-            let unit = dice.unit();
+            let unit = dice.signed();
             match dice.bits() % 8 {
                 0 => 0.0,
                 1 => 1.0,
@@ -152,11 +150,11 @@ fn powers_of_intervals_hold_the_exact_ones() {
             if i % 3 == 0 { (a, a) } else { (a.min(b), a.max(b)) }
         });
         let p = match dice.bits() % 5 {
-            0 => dice.unit() * 700.0,
-            1 => (dice.unit() * 9.0).round(),
-            _ => dice.unit() * 6.0,
+            0 => dice.signed() * 700.0,
+            1 => (dice.signed() * 9.0).round(),
+            _ => dice.signed() * 6.0,
         };
-        let q = if dice.bits().is_multiple_of(2) { p } else { p + dice.unit().abs() * 0.1 };
+        let q = if dice.bits().is_multiple_of(2) { p } else { p + dice.signed().abs() * 0.1 };
         let (a, b) = (I8::new(F8(ends.map(|e| e.0)), F8(ends.map(|e| e.1))), Interval::new(p, q));
         let y = <I8 as Number>::pow(&a, &I8::splat(b));
         for (i, (lo, hi)) in ends.into_iter().enumerate() {

@@ -1,15 +1,13 @@
 //! Powers of eight intervals contain the exact powers of their numbers, whatever their signs and
 //! sizes, and are narrow.
 
-mod common;
-
-use common::Dice;
 use durer_math::{Dyadic, F8, I8, Interval, Number, Ring};
+use durer_testkit::TestRng;
 
 /// Numbers of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers
 /// leave the range.
-fn number(dice: &mut Dice) -> f64 {
-    let unit = dice.unit();
+fn number(dice: &mut TestRng) -> f64 {
+    let unit = dice.signed();
     match dice.bits() % 8 {
         0 => 0.0,
         1 => unit * durer_math::scale::pow2(-300),
@@ -20,7 +18,7 @@ fn number(dice: &mut Dice) -> f64 {
 
 #[test]
 fn powers_hold_the_exact_ones() {
-    let mut dice = Dice(1);
+    let mut dice = TestRng::new(1);
     let mut tight = 0;
     for round in 0..4_000 {
         let n = 2 + (round % 64);

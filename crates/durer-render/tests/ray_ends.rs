@@ -13,6 +13,7 @@ use durer_scene::{
     Background, Colour, Face, Finish, Flags, Interior, Layer, Light, LightKind, Mesh, NamedQuadric, Object,
     Operation, Pigment, Prism, Projection, QuadricKind, Rgb, Scene, Shape, Spline, Sweep, Texture,
 };
+use durer_testkit::TestRng;
 use std::sync::Arc;
 
 const SIZE: (u32, u32) = (24, 18);
@@ -29,22 +30,9 @@ fn v(x: f64, y: f64, z: f64) -> Vec3 {
     Vec3::new(x, y, z)
 }
 
-/// Random numbers in `[-1, 1)`.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        v(self.unit(), self.unit(), self.unit())
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        self.vector().normalized().unwrap_or(Vec3::X)
-    }
+/// A direction of length 1.
+fn direction(dice: &mut TestRng) -> Vec3 {
+    dice.vector().normalized().unwrap_or(Vec3::X)
 }
 
 fn boxed(half: Vec3) -> Shape {
@@ -93,7 +81,7 @@ fn cushion() -> Shape {
 }
 
 /// Places on bodies of all kinds: on faces, edges and corners.
-fn places(random: &mut Random) -> Vec<Place> {
+fn places(random: &mut TestRng) -> Vec<Place> {
     let mut all = Vec::new();
     let mut add = |name, shape, point: Vec3, normals: &[Vec3]| {
         all.push(Place { name, body: Object::new(shape), point, normals: normals.to_vec() });
@@ -114,8 +102,8 @@ fn places(random: &mut Random) -> Vec<Place> {
         add(name, shape(half), v(-x, -y, z), &[-Vec3::X, -Vec3::Y, Vec3::Z]);
     }
     for _ in 0..3 {
-        let n = random.direction();
-        let (centre, radius) = (random.vector(), 1.0 + 0.5 * random.unit());
+        let n = direction(random);
+        let (centre, radius) = (random.vector(), 1.0 + 0.5 * random.signed());
         add("sphere", Shape::Sphere { centre: centre.to_point(), radius }, centre + n * radius, &[n]);
         // The surface passes through the origin, where the coordinates do not show its size.
         let radius = centre.length();
@@ -161,8 +149,8 @@ fn places(random: &mut Random) -> Vec<Place> {
 }
 
 /// A rotation, a translation and, every other time, a scaling. Body and point are both rounded.
-fn moved(random: &mut Random, place: Place, turn: usize) -> Place {
-    let turned = Affine::rotation(random.direction(), 3.0 * random.unit()).unwrap();
+fn moved(random: &mut TestRng, place: Place, turn: usize) -> Place {
+    let turned = Affine::rotation(direction(random), 3.0 * random.signed()).unwrap();
     let scaled = match turn % 2 {
         0 => turned,
         _ => Affine::scaling(1.7, 0.6, 1.2).unwrap().then(&turned).unwrap(),
@@ -177,7 +165,7 @@ fn moved(random: &mut Random, place: Place, turn: usize) -> Place {
 
 /// All places as they are, transformed, and transformed with the point some ulps away.
 fn all_places() -> Vec<Place> {
-    let mut random = Random(7);
+    let mut random = TestRng::new(7);
     let mut all = places(&mut random);
     for turn in 0..4 {
         for mut place in places(&mut random) {
@@ -372,11 +360,11 @@ fn a_parallel_light_is_not_shadowed_by_a_surface_in_its_plane() {
     let wall = |distance, normal: Vec3| {
         Object::new(Shape::Plane { normal, distance }).with_texture(paint(WHITE, 0.0, 1.0))
     };
-    let mut random = Random(3);
+    let mut random = TestRng::new(3);
     for turn in 0..20 {
         let map = match turn {
             0 => Affine::scaling(1.0, 1.0, 1.0).unwrap(),
-            _ => Affine::rotation(random.direction(), 3.0 * random.unit()).unwrap(),
+            _ => Affine::rotation(direction(&mut random), 3.0 * random.signed()).unwrap(),
         };
         for kind in [LightKind::Point, LightKind::Cylinder { radius: 9.0, falloff: 10.0, tightness: 0.0 }] {
             let n = map.normal(Vec3::Y.to_normal()).to_vec();

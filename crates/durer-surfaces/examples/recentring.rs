@@ -21,6 +21,7 @@
 use durer_math::eft::{difference_of_products, two_diff};
 use durer_math::{Dd, Point3, Ray, Vec3};
 use durer_surfaces::{Closest, LocalRay, Sphere, Surface};
+use durer_testkit::TestRng;
 
 const RAYS: u32 = 200_000;
 
@@ -83,18 +84,14 @@ fn reference(ray: &Ray) -> Option<(Dd, f64)> {
     (inside.hi > 0.0).then(|| (t0 - (inside / a).sqrt(), 1.0 / inside.hi.sqrt()))
 }
 
-/// A counter-based generator (S. Vigna's SplitMix64).
-struct Dice(u64);
+/// Draws of rays at a unit sphere.
+trait Draws {
+    fn direction(&mut self) -> Vec3;
+    /// A ray from `distance` away that passes the centre at `1 - 10^-k`, k uniform in `[0, 6]`.
+    fn ray(&mut self, distance: f64) -> Ray;
+}
 
-impl Dice {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * (f64::EPSILON / 2.0)
-    }
-
+impl Draws for TestRng {
     fn direction(&mut self) -> Vec3 {
         loop {
             let v = Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - Vec3::new(1.0, 1.0, 1.0);
@@ -104,7 +101,6 @@ impl Dice {
         }
     }
 
-    /// A ray from `distance` away that passes the centre at `1 - 10^-k`, k uniform in `[0, 6]`.
     fn ray(&mut self, distance: f64) -> Ray {
         let d = self.direction();
         let across = d.orthonormal_basis().0;
@@ -131,7 +127,7 @@ fn main() {
     println!(" u t |");
     println!("|---|{}---|", "---|".repeat(forms.len()));
     for distance in [1e2, 1e4, 1e6, 1e8] {
-        let mut dice = Dice(distance as u64);
+        let mut dice = TestRng::new(distance as u64);
         let (mut worst, mut lost, mut hits) = ([0.0_f64; 5], [0_u32; 5], 0_u32);
         for _ in 0..RAYS {
             let ray = dice.ray(distance);

@@ -203,11 +203,8 @@ mod tests {
 
     #[test]
     fn random_polyhedra_lie_in_their_boxes() {
-        let mut state = 7_u64;
-        let mut dice = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-        };
+        let mut rng = durer_testkit::TestRng::new(7);
+        let mut dice = move || rng.signed();
         let (mut bounded, mut within) = (0, 0);
         for _ in 0..300 {
             let planes: Vec<_> = (0..12)

@@ -1,7 +1,6 @@
 //! Blobs against spheres, against the same sum as a formula on the interval tape, and against exact
 //! arithmetic.
 
-mod common;
 #[path = "common/blob_formula.rs"]
 mod formula;
 #[path = "common/solid_laws.rs"]
@@ -9,14 +8,14 @@ mod laws;
 #[path = "common/solids.rs"]
 mod solids;
 
-use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Vec3};
 use durer_surfaces::{
     All, Blob, BlobComponent, BlobError, BlobShape, LocalRay, Need, Placed, Root, RootKind, Sphere, Surface,
 };
+use durer_testkit::TestRng;
 use durer_testkit::{case_seed, drawn, report};
 use laws::{holds_together, polynomial, same};
-use solids::{Met, all};
+use solids::{Draws, Met, all};
 
 fn ball(centre: Point3, radius: f64, strength: f64) -> BlobComponent {
     BlobComponent { shape: BlobShape::Ball(centre), radius, strength, place: Affine::IDENTITY }
@@ -30,7 +29,7 @@ fn a_blob_of_one_ball_is_a_ball() {
     let (mut met, mut rays) = (Met::default(), 0);
     for case in drawn(6_000) {
         rays += 1;
-        let ray = Dice(case_seed(14, case)).ray();
+        let ray = TestRng::new(case_seed(14, case)).ray();
         let (a, b) = (all(&one, &ray), all(&exact, &ray));
         assert!(same(&a, &b), "{ray:?}\n blob {a:?}\n ball {b:?}");
         met.add(&a);
@@ -49,7 +48,7 @@ fn a_shear_widens_no_bracket() {
     let shear = [[1.0, 500.0, 0.0], [0.0, 1.0, 500.0], [0.0, 0.0, 1.0]];
     let place = Affine::new(shear, Point3::new(0.125, 125.0, 1000.0)).unwrap();
     let (one, exact) = (Placed::new(one, place), Placed::new(exact, place));
-    let (mut dice, mut widths, mut clusters, mut met) = (Dice(21), vec![], 0, 0);
+    let (mut dice, mut widths, mut clusters, mut met) = (TestRng::new(21), vec![], 0, 0);
     for i in 0..1000 {
         // Half of them pass within 2^-22 of the ball's size from its rim.
         let d = dice.vector();
@@ -82,7 +81,7 @@ fn next_to_a_tangent_there_are_two_crossings_or_none() {
     let small = BlobComponent { place, ..ball(Point3::new(0.0, 0.0, -200.0), 2.0_f64.sqrt(), 4.0) };
     let parts = [small, ball(Point3::new(-900.0, 0.0, 0.0), 500.0, 1.0)];
     let blob = Blob::new(1.0, &parts).unwrap();
-    let (mut dice, mut two, mut none) = (Dice(23), 0, 0);
+    let (mut dice, mut two, mut none) = (TestRng::new(23), 0, 0);
     for i in 0..400 {
         let d = dice.vector();
         let across = d.cross(dice.vector());
@@ -120,7 +119,7 @@ fn pictures_know_as_well_on_which_side_of_an_end_a_crossing_is() {
     let one = Blob::new(0.25, &[ball(Point3::ORIGIN, 2.0, 1.0)]).unwrap();
     let shear = [[1.0, 16.0, 0.0], [0.0, 1.0, 16.0], [0.0, 0.0, 1.0]];
     let one = Placed::new(one, Affine::new(shear, Point3::new(0.125, 125.0, 1000.0)).unwrap());
-    let (mut dice, mut met) = (Dice(22), 0);
+    let (mut dice, mut met) = (TestRng::new(22), 0);
     for _ in 0..1000 {
         let (from, to) = (dice.vector() * 4.0, dice.vector());
         let place = |v: Vec3| one.map().point(v.to_point());
@@ -158,7 +157,7 @@ fn a_blob_of_one_sausage_is_a_cylinder_with_round_ends() {
     let BlobShape::Segment(a, b) = segment else { unreachable!() };
     let (u, r) = (b - a, 0.5_f64.sqrt());
     let ends = [Sphere::new(a, r).unwrap(), Sphere::new(b, r).unwrap()];
-    let (mut dice, mut met) = (Dice(15), Met::default());
+    let (mut dice, mut met) = (TestRng::new(15), Met::default());
     for _ in 0..3_000 {
         let ray = dice.ray();
         let roots = all(&one, &ray);
@@ -207,11 +206,11 @@ fn exact_sign(parts: &[BlobComponent], threshold: f64, ray: &Ray, t: f64) -> std
 fn brackets_of_blobs_have_the_signs_of_exact_arithmetic_at_their_ends() {
     let (mut met, mut rays) = (Met::default(), 0);
     for case in drawn(12) {
-        let mut dice = Dice(case_seed(16, case));
+        let mut dice = TestRng::new(case_seed(16, case));
         let parts: Vec<_> = (0..2 + dice.below(8))
             .map(|i| {
                 let strength =
-                    if i > 0 && dice.below(3) == 0 { -1.0 } else { 1.0 } * (1.0 + dice.unit().abs());
+                    if i > 0 && dice.below(3) == 0 { -1.0 } else { 1.0 } * (1.0 + dice.signed().abs());
                 ball((dice.vector() * 0.75).to_point(), [0.25, 0.5, 1.0][dice.below(3) as usize], strength)
             })
             .collect();
@@ -256,7 +255,7 @@ fn a_component_is_placed_like_an_object() {
     let part = BlobComponent { place, ..ball(Point3::ORIGIN, 1.0, 1.0) };
     let moved = Blob::new(0.25, &[part]).unwrap();
     let exact = Placed::new(Sphere::new(Point3::ORIGIN, 0.5_f64.sqrt()).unwrap(), place);
-    let (mut dice, mut met) = (Dice(17), 0);
+    let (mut dice, mut met) = (TestRng::new(17), 0);
     for _ in 0..3_000 {
         let ray = dice.ray();
         let (a, b) = (all(&moved, &ray), all(&exact, &ray));
@@ -287,7 +286,7 @@ fn normals_point_out_of_blobs() {
     let surface =
         Blob::new(0.5, &[ball(Point3::ORIGIN, 1.0, 1.0), ball(Point3::new(0.8, 0.0, 0.0), 1.0, 1.0)])
             .unwrap();
-    let mut dice = Dice(18);
+    let mut dice = TestRng::new(18);
     for _ in 0..500 {
         let ray = dice.ray();
         for root in all(&surface, &ray).iter().filter(|r| r.kind == RootKind::Simple) {
@@ -325,7 +324,7 @@ fn agrees(parts: &[BlobComponent], threshold: f64, rays: &[Ray]) -> Met {
 }
 
 /// A ray through a point, from near or far.
-fn through(dice: &mut Dice, p: Point3, direction: Vec3) -> Ray {
+fn through(dice: &mut TestRng, p: Point3, direction: Vec3) -> Ray {
     let back = [2.0, 4.0, 1e2, 1e6][dice.below(4) as usize] / direction.length();
     Ray::new(p - direction * back, direction)
 }
@@ -334,10 +333,10 @@ fn through(dice: &mut Dice, p: Point3, direction: Vec3) -> Ray {
 fn where_fields_begin_and_end_nothing_is_lost() {
     // Small numbers, so that rays pass exactly through places where fields begin, along their
     // tangents, and through points where the sum is the threshold.
-    let mut dice = Dice(19);
+    let mut dice = TestRng::new(19);
     let mut met = (0, 0);
     for case in 0..24 {
-        let quarter = |dice: &mut Dice| (dice.below(9) as f64 - 4.0) * 0.25;
+        let quarter = |dice: &mut TestRng| (dice.below(9) as f64 - 4.0) * 0.25;
         let mut parts: Vec<_> = (0..2 + dice.below(6))
             .map(|i| {
                 let c = Point3::new(quarter(&mut dice), quarter(&mut dice), quarter(&mut dice));
@@ -404,11 +403,11 @@ fn a_crossing_where_another_field_begins_is_one_simple_crossing() {
 
 #[test]
 fn of_thousands_of_components_each_ray_asks_its_own() {
-    let mut dice = Dice(21);
+    let mut dice = TestRng::new(21);
     let parts: Vec<_> = (0..3_000)
         .map(|i| {
             let strength = if i % 5 == 0 { -0.5 } else { 1.0 };
-            ball((dice.vector() * 4.0).to_point(), 0.25 + 0.125 * dice.unit(), strength)
+            ball((dice.vector() * 4.0).to_point(), 0.25 + 0.125 * dice.signed(), strength)
         })
         .collect();
     let blob = Blob::new(0.375, &parts).unwrap();
@@ -444,7 +443,7 @@ fn rays_that_leave_the_surface_do_not_meet_it_again_at_once() {
         ball(Point3::new(0.3, 0.5, 0.0), 0.5, -1.5),
     ];
     let blob = Blob::new(0.5, &parts).unwrap();
-    let (mut dice, mut left) = (Dice(22), 0);
+    let (mut dice, mut left) = (TestRng::new(22), 0);
     for _ in 0..2_000 {
         let ray = dice.ray();
         for root in all(&blob, &ray).iter().filter(|r| r.kind == RootKind::Simple) {

@@ -1,12 +1,10 @@
 //! Deformed solids against multi-precision values of the same maps in another form, against solids
 //! to which they are equal, and against themselves.
 
-mod common;
 #[path = "common/warp_witness.rs"]
 mod witness;
 
 use astro_float::BigFloat;
-use common::Dice;
 use durer_formula::{Builder, Formula, NodeId, Op};
 use durer_math::{Aabb, Affine, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::implicit::level_set::primitives;
@@ -14,6 +12,7 @@ use durer_surfaces::{
     All, Axis, DeformError, Isosurface, LevelSet, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere,
     Surface, Torus, Warp,
 };
+use durer_testkit::TestRng;
 use durer_testkit::{case_seed, drawn, report};
 use std::sync::Arc;
 use witness::{Real, Solid, was};
@@ -73,7 +72,7 @@ fn all<S: Surface>(surface: &S, ray: &Ray) -> Vec<Root> {
 }
 
 /// A ray from outside through the box of a surface, from near and far, along axes too.
-fn ray_at(dice: &mut Dice, bounds: &Aabb) -> Ray {
+fn ray_at(dice: &mut TestRng, bounds: &Aabb) -> Ray {
     let centre = bounds.centre();
     let half = bounds.widths() * 0.45;
     let mut direction = dice.vector();
@@ -104,7 +103,7 @@ fn brackets_hold_changes_of_sign_in_256_bits_and_none_is_missing() {
             let sample =
                 |p: Point3| solid.value(&rope.iter().rev().fold(p.to_array(), |p, warp| was(warp, &p)));
             for case in drawn(60) {
-                let mut dice = Dice(case_seed(7 + 64 * n as u64 + solid as u64, case));
+                let mut dice = TestRng::new(case_seed(7 + 64 * n as u64 + solid as u64, case));
                 let ray = ray_at(&mut dice, &Surface::bounds(&deformed));
                 rays += 1;
                 let at = |t: f64| {
@@ -182,7 +181,7 @@ fn a_tapered_block_is_a_piece_of_a_pyramid() {
         ([0.0, 0.0, 1.0], 1.0),
         ([0.0, 0.0, -1.0], 0.0),
     ];
-    let mut dice = Dice(11);
+    let mut dice = TestRng::new(11);
     let mut met = 0;
     for _ in 0..5000 {
         let ray = ray_at(&mut dice, &Surface::bounds(&pyramid));
@@ -250,7 +249,7 @@ fn same(a: &[Root], b: &[Root]) -> bool {
 
 #[test]
 fn a_twist_by_nothing_and_a_twist_undone_change_nothing() {
-    let mut dice = Dice(13);
+    let mut dice = TestRng::new(13);
     let twist = |degrees: f64| Warp::Twist { axis: Vec3::Y, degrees, from: -0.5, to: 0.75 };
     let bend = |degrees: f64| Warp::Bend { axis: Vec3::Z, toward: Vec3::X, degrees, from: -1.0, to: 1.0 };
     for solid in [Solid::Block, Solid::Ball, Solid::Ring, Solid::Shell] {
@@ -271,7 +270,7 @@ fn a_twist_by_nothing_and_a_twist_undone_change_nothing() {
 
 #[test]
 fn a_twist_of_what_is_round_and_a_taper_by_one_change_nothing() {
-    let mut dice = Dice(17);
+    let mut dice = TestRng::new(17);
     let ring = Torus::new(Point3::ORIGIN, Axis::Y, 0.5, 0.2).unwrap();
     for warp in [
         Warp::Twist { axis: Vec3::Y, degrees: 1000.0, from: -0.1, to: 0.15 },
@@ -291,7 +290,7 @@ fn a_twist_of_what_is_round_and_a_taper_by_one_change_nothing() {
 
 #[test]
 fn a_deformed_union_is_the_union_of_the_deformed() {
-    let mut dice = Dice(19);
+    let mut dice = TestRng::new(19);
     for rope in ropes() {
         let parts = [Solid::Block, Solid::Ring].map(Solid::level_set);
         let whole = surface(&deformed(&LevelSet::union(&parts).unwrap(), &rope));
@@ -337,7 +336,7 @@ fn a_bent_cylinder_is_a_piece_of_a_torus() {
     ));
     let radius = 2.0 / core::f64::consts::PI;
     let ring = Torus::new(Point3::new(radius, 0.0, 0.0), Axis::Y, radius, 0.25).unwrap();
-    let mut dice = Dice(23);
+    let mut dice = TestRng::new(23);
     let mut met = 0;
     for _ in 0..5000 {
         let ray = ray_at(&mut dice, &Surface::bounds(&arc));
@@ -360,7 +359,7 @@ fn a_bent_cylinder_is_a_piece_of_a_torus() {
 
 #[test]
 fn rays_leave_deformed_solids() {
-    let mut dice = Dice(29);
+    let mut dice = TestRng::new(29);
     let (mut spawned, mut untold) = (0, 0);
     for rope in ropes() {
         for solid in [Solid::Ball, Solid::Shell] {
@@ -406,7 +405,7 @@ fn any_axis_will_do() {
     let upright = deformed(&Solid::Block.level_set(), &[warp(Vec3::Z)]).placed(&turn).unwrap();
     let slanted = deformed(&Solid::Block.level_set().placed(&turn).unwrap(), &[warp(axis * 3.0)]);
     let (a, b) = (surface(&upright), surface(&slanted));
-    let mut dice = Dice(31);
+    let mut dice = TestRng::new(31);
     let mut met = 0;
     for _ in 0..500 {
         let ray = ray_at(&mut dice, &Surface::bounds(&a));
@@ -534,7 +533,7 @@ fn coincident_faces_leave_no_skin() {
     let (low, high) = (block([-0.5, 0.0, -0.5], [0.5, 0.5, 0.5]), block([-0.5, 0.5, -0.5], [0.5, 1.0, 0.5]));
     let both = LevelSet::union(&[low.clone(), high.clone()]).unwrap();
     let rest = LevelSet::intersection(&[whole.clone(), high.complement().unwrap()]).unwrap();
-    let mut dice = Dice(37);
+    let mut dice = TestRng::new(37);
     for (made, same_as) in [(both, whole), (rest, low)] {
         let [made, same_as] =
             [made, same_as].map(|solid| surface(&deformed(&solid, core::slice::from_ref(&twist))));
@@ -582,7 +581,7 @@ fn a_ray_in_a_face_that_two_parts_share_is_inside() {
         &[block([0.0, 0.0, -0.5], [0.5, 1.0, 0.5])],
         &[block([-0.5, 0.0, -0.5], [-0.25, 1.0, 0.5]), block([0.25, 0.0, -0.5], [0.5, 1.0, 0.5])],
     ];
-    let mut dice = Dice(41);
+    let mut dice = TestRng::new(41);
     for (upper, through) in upper.into_iter().zip(through) {
         let parts: Vec<LevelSet> = upper.iter().cloned().chain([low.clone()]).collect();
         let (made, section) = (LevelSet::union(&parts).unwrap(), LevelSet::union(through).unwrap());
@@ -590,7 +589,7 @@ fn a_ray_in_a_face_that_two_parts_share_is_inside() {
             let [made, section] = [&made, &section].map(|solid| surface(&deformed(solid, warps)));
             let (mut met, mut missed) = (0, 0);
             for _ in 0..300 {
-                let mut aside = |size: f64| size * (dice.unit() - 0.5);
+                let mut aside = |size: f64| size * (dice.signed() - 0.5);
                 let (o, to) =
                     (Point3::new(aside(8.0), 0.5, aside(8.0)), Point3::new(aside(1.2), 0.5, aside(1.2)));
                 let ray = Ray::new(o, to - o);

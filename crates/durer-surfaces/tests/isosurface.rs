@@ -1,16 +1,15 @@
 //! Formulas as surfaces against the same surfaces as quadrics, against other formulas of the same
 //! set, and against themselves.
 
-mod common;
 #[path = "common/formulas.rs"]
 mod formulas;
 
-use common::Dice;
 use durer_formula::{Formula, Op};
 use durer_math::{Function, Point3, Ray, RaySide, Vec3};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };
+use durer_testkit::TestRng;
 use durer_testkit::{case_seed, drawn, report};
 use formulas::{Pen, all, iso};
 
@@ -64,22 +63,22 @@ fn quartic_torus(major: f64, minor: f64) -> Formula {
 
 /// Rays from anywhere through points near the surface of a unit ball, often almost tangent to it,
 /// with all kinds of ranges.
-fn ray_at_a_ball(dice: &mut Dice, radius: f64) -> Ray {
+fn ray_at_a_ball(dice: &mut TestRng, radius: f64) -> Ray {
     let direction = dice.vector();
     let across = direction.cross(dice.vector());
     let near = match dice.below(4) {
         0 => 1.0,
-        1 => 1.0 + dice.unit() * 1e-12,
-        2 => 1.0 + dice.unit() * 1e-6,
-        _ => dice.unit() * 1.2,
+        1 => 1.0 + dice.signed() * 1e-12,
+        2 => 1.0 + dice.signed() * 1e-6,
+        _ => dice.signed() * 1.2,
     };
     let through = across * (radius * near / across.length());
-    let back = [0.0, 1.0, 2.0, 3.0, 1e3, 1e6][dice.below(6) as usize] * dice.unit().abs();
+    let back = [0.0, 1.0, 2.0, 3.0, 1e3, 1e6][dice.below(6) as usize] * dice.signed().abs();
     let ray = Ray::new(through.to_point() - direction * back, direction);
     match dice.below(3) {
         0 => ray.with_range(f64::NEG_INFINITY, f64::INFINITY),
         1 => ray,
-        _ => ray.with_range(back * dice.unit().abs(), back * 1.5),
+        _ => ray.with_range(back * dice.signed().abs(), back * 1.5),
     }
 }
 
@@ -104,7 +103,7 @@ fn a_sphere_as_a_formula_is_the_sphere() {
         let exact = Sphere::new(Point3::ORIGIN, r).unwrap();
         let (mut met, mut unsure, mut widths) = (0, 0, Vec::new());
         for case in drawn(20_000) {
-            let ray = ray_at_a_ball(&mut Dice(case_seed(1, case)), r);
+            let ray = ray_at_a_ball(&mut TestRng::new(case_seed(1, case)), r);
             rays += 1;
             let (a, b) = (all(&formula, &ray), all(&exact, &ray));
             assert!(same(&a, &b), "{ray:?}\n formula {a:?}\n sphere {b:?}");
@@ -152,7 +151,7 @@ fn wavy() -> Formula {
 /// narrow ones that are no wider than allowed.
 #[test]
 fn who_looks_roughly_sees_the_same_roots() {
-    let mut dice = Dice(40);
+    let mut dice = TestRng::new(40);
     for formula in [sphere(0.25, 1.0), distance_sphere(1.0), torus(0.7, 0.3), quartic_torus(0.7, 0.3), wavy()]
     {
         let surface = iso(&formula, 1.5);
@@ -194,7 +193,7 @@ fn pictures_see_as_much_of_a_rim() {
             Vec3::new(-1.0371295351417038, -0.04637597023026035, 0.6997289883843476),
         ),
     ];
-    let mut dice = Dice(31);
+    let mut dice = TestRng::new(31);
     for _ in 0..4000 {
         let a = dice.vector();
         let rim =
@@ -220,7 +219,7 @@ fn two_formulas_of_a_torus_agree() {
     let (a, b) = (iso(&torus(1.0, 0.25), 1.5), iso(&quartic_torus(1.0, 0.25), 1.5));
     let (mut rays, mut met, mut unsure) = (0, 0, 0);
     for case in drawn(20_000) {
-        let mut dice = Dice(case_seed(2, case));
+        let mut dice = TestRng::new(case_seed(2, case));
         rays += 1;
         let radius = [1.25, 0.75, 1.0][dice.below(3) as usize];
         let ray = ray_at_a_ball(&mut dice, radius);
@@ -246,7 +245,7 @@ fn a_container_closes_what_it_cuts() {
     );
     let mut rays = 0;
     for case in drawn(20_000) {
-        let mut dice = Dice(case_seed(3, case));
+        let mut dice = TestRng::new(case_seed(3, case));
         rays += 1;
         let d = dice.vector();
         let ray = Ray::new((dice.vector() * 1.5).to_point(), d).with_range(f64::NEG_INFINITY, f64::INFINITY);
@@ -284,7 +283,7 @@ fn a_container_closes_what_it_cuts() {
 
 #[test]
 fn rays_leave_what_they_were_spawned_on() {
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for formula in [sphere(0.0, 1.0), distance_sphere(1.0)] {
         let surface = iso(&formula, 1.5);
         let mut spawned = 0;
@@ -335,7 +334,7 @@ fn no_root_is_lost_where_a_formula_is_wild() {
     let f = p.add(product, lift);
     let formula = p.done(f);
     let surface = iso(&formula, 1.0);
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     let mut met = 0;
     for _ in 0..300 {
         let ray = Ray::new((dice.vector() * 0.9).to_point(), dice.vector()).with_range(0.0, 0.8);
@@ -447,13 +446,13 @@ fn a_rim_within_rounding_is_one_touch() {
     let sum = p.add(x, y);
     let f = p.add(sum, half);
     let surface = iso(&p.done(f), 1.0);
-    let (mut dice, mut touches) = (Dice(32), 0);
+    let (mut dice, mut touches) = (TestRng::new(32), 0);
     for _ in 0..2000 {
         // Through the rim at x = 1/2, y = -1, from below one face to beyond the other.
-        let rim = Vec3::new(0.5, -1.0, 0.5 * dice.unit());
-        let d = Vec3::new(dice.unit() - 0.25, dice.unit(), dice.unit());
+        let rim = Vec3::new(0.5, -1.0, 0.5 * dice.signed());
+        let d = Vec3::new(dice.signed() - 0.25, dice.signed(), dice.signed());
         let d = if d.x + d.y > 0.1 && d.y > 0.1 { d } else { Vec3::new(0.3, 0.7, 0.1) };
-        let roots = all(&surface, &Ray::new((rim - d * (1.0 + 3.0 * dice.unit())).to_point(), d));
+        let roots = all(&surface, &Ray::new((rim - d * (1.0 + 3.0 * dice.signed())).to_point(), d));
         let signs: Vec<_> = roots.iter().map(|r| (r.sign, r.kind)).collect();
         assert!(matches!(signs.as_slice(), [] | [(0, RootKind::Cluster)]), "{d:?} {roots:?}");
         assert!(roots.iter().all(|r| r.hi - r.lo < 1e-12), "{d:?} {roots:?}");

@@ -1,17 +1,16 @@
 //! Julia sets against balls, and against exact arithmetic.
 
-mod common;
 #[path = "common/solids.rs"]
 mod solids;
 
-use common::Dice;
 use durer_math::{Affine, Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::{
     Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet, LocalPoint, LocalRay, Need, Placed, Root,
     RootKind, Side, Surface, superellipsoid,
 };
+use durer_testkit::TestRng;
 use durer_testkit::{case_seed, drawn, report};
-use solids::{Met, all};
+use solids::{Draws, Met, all};
 
 fn julia_of(c: [f64; 4], algebra: JuliaAlgebra, power: JuliaPower, iterations: u32) -> Julia {
     Julia { c, algebra, power, iterations, radius: 2.0, normal: [0.0, 0.0, 0.0, 1.0], distance: 0.0 }
@@ -27,7 +26,7 @@ fn a_julia_set_of_zero_is_a_ball() {
         (2, JuliaPower::Cube, durer_math::elementary::pow(2.0, 1.0 / 9.0)),
     ] {
         let set = JuliaSet::new(&julia_of([0.0; 4], JuliaAlgebra::Quaternion, power, iterations)).unwrap();
-        let (mut dice, mut met) = (Dice(20), Met::default());
+        let (mut dice, mut met) = (TestRng::new(20), Met::default());
         for _ in 0..1_000 {
             let ray = dice.ray();
             let roots = all(&set, &ray);
@@ -57,7 +56,7 @@ fn a_touch_is_as_short_as_rounding_allows() {
     let turn = [[-4.0, 4.0, -7.0], [8.0, 1.0, -4.0], [1.0, 8.0, 4.0]];
     let place = Affine::new(turn, Point3::new(0.0, -7.0, 1000.0)).unwrap();
     let placed = Placed::new(set, place);
-    let (mut dice, mut touches) = (Dice(24), 0);
+    let (mut dice, mut touches) = (TestRng::new(24), 0);
     for _ in 0..300 {
         let d = dice.vector();
         let across = d.cross(dice.vector());
@@ -81,7 +80,7 @@ fn a_shear_widens_no_bracket() {
     let julia = Placed::new(JuliaSet::new(&julia).unwrap(), place);
     let convex = Placed::new(superellipsoid(0.5, 1.0).unwrap(), place);
     let dented = Placed::new(superellipsoid(1.0, 4.0).unwrap(), place);
-    let mut dice = Dice(25);
+    let mut dice = TestRng::new(25);
     let (mut widths, mut points) = ([const { Vec::new() }; 3], 0);
     for _ in 0..200 {
         let (from, to) = (dice.vector() * 4.0, dice.vector() * 0.5);
@@ -167,7 +166,7 @@ fn brackets_of_julia_sets_have_the_signs_of_exact_arithmetic_at_their_ends() {
         let surface = JuliaSet::new(&data).unwrap();
         let mut met = Met::default();
         for case in drawn(60) {
-            let mut dice = Dice(case_seed(21 + i as u64, case));
+            let mut dice = TestRng::new(case_seed(21 + i as u64, case));
             rays += 1;
             let through = (dice.vector() * 0.7).to_point();
             let direction = dice.vector();
@@ -213,7 +212,7 @@ fn what_makes_no_julia_set_is_named() {
 
 #[test]
 fn normals_and_starts_are_on_their_sides() {
-    let mut dice = Dice(23);
+    let mut dice = TestRng::new(23);
     for (algebra, power, c, iterations) in [
         (JuliaAlgebra::Quaternion, JuliaPower::Square, [-0.083, 0.0, -0.83, -0.025], 8),
         (JuliaAlgebra::Quaternion, JuliaPower::Cube, [-0.25, 0.5, 0.125, 0.5], 3),

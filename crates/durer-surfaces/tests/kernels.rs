@@ -1,9 +1,6 @@
 //! One surface in several kernels: quadric, polynomial, formula, swept, revolution. Each
 //! brackets its exact crossings, so the brackets of one crossing overlap for all kernels.
 
-mod common;
-
-use common::Dice;
 use durer_math::{Aabb, Affine, Point3, Ray, Vec3};
 use durer_surfaces::algebraic::{coefficient_count, place_of};
 use durer_surfaces::implicit::level_set::primitives;
@@ -12,6 +9,7 @@ use durer_surfaces::{
     EllipticCylinder, LevelSet, LocalRay, Prism, Quadric, Root, RootKind, Sphere, Surface,
     SurfaceOfRevolution, Torus, Warp, superellipsoid,
 };
+use durer_testkit::TestRng;
 
 /// A surface's name and its roots along a ray.
 type Named = (&'static str, Box<dyn Fn(&Ray) -> Vec<Root>>);
@@ -27,7 +25,7 @@ fn named<S: Surface + 'static>(name: &'static str, surface: S) -> Named {
 
 /// Rays through the cube from -2 to 2, from near and far: anywhere, along axes, through points with
 /// few bits, and nearly tangent to the unit sphere.
-fn ray(dice: &mut Dice) -> Ray {
+fn ray(dice: &mut TestRng) -> Ray {
     let mut direction = dice.vector();
     let mut through = dice.vector() * 1.25;
     match dice.below(6) {
@@ -35,7 +33,7 @@ fn ray(dice: &mut Dice) -> Ray {
         1 => direction = [Vec3::X, Vec3::Y, Vec3::Z][dice.below(3) as usize],
         2 => {
             let across = direction.cross(through);
-            through = across * ((1.0 + dice.unit() * 1e-7) / across.length());
+            through = across * ((1.0 + dice.signed() * 1e-7) / across.length());
         }
         3 => through = through.map(|x| (x * 4.0).round() * 0.25),
         _ => {}
@@ -47,7 +45,7 @@ fn ray(dice: &mut Dice) -> Ray {
 /// Compares all kernels with the first. Rays with clusters or tangents are uncertain; they are
 /// counted and must be few.
 fn agree(kernels: &[Named], seed: u64, count: usize) {
-    let mut dice = Dice(seed);
+    let mut dice = TestRng::new(seed);
     let (mut met, mut unsure) = (0, 0);
     for _ in 0..count {
         let ray = ray(&mut dice);

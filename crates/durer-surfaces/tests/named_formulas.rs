@@ -1,16 +1,15 @@
 //! Superellipsoids against the same surfaces in other kernels, and against exact arithmetic.
 
-mod common;
 #[path = "common/solid_laws.rs"]
 mod laws;
 #[path = "common/solids.rs"]
 mod solids;
 
-use common::Dice;
 use durer_math::{Point3, Ray, Vec3};
 use durer_surfaces::{SuperellipsoidError, superellipsoid};
+use durer_testkit::TestRng;
 use laws::{holds_together, polynomial, same};
-use solids::{Met, all};
+use solids::{Draws, Met, all};
 
 #[test]
 fn with_exponents_that_make_polynomials_it_is_their_surface() {
@@ -29,7 +28,7 @@ fn with_exponents_that_make_polynomials_it_is_their_surface() {
         (0.25, 0.25, unit(8, &eighths)),
         (1.0, 0.5, unit(4, &coin)),
     ];
-    let mut dice = Dice(11);
+    let mut dice = TestRng::new(11);
     for (e, n, exact) in cases {
         let formula = superellipsoid(e, n).unwrap();
         let mut met = Met::default();
@@ -54,7 +53,7 @@ fn with_exponents_that_make_polynomials_it_is_their_surface() {
 fn an_octahedron_has_eight_faces() {
     // |x| + |y| + |z| = 1: along a ray the middle of eight slabs' ends.
     let formula = superellipsoid(2.0, 2.0).unwrap();
-    let (mut dice, mut met) = (Dice(12), Met::default());
+    let (mut dice, mut met) = (TestRng::new(12), Met::default());
     for _ in 0..4_000 {
         let ray = dice.ray();
         let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -85,7 +84,7 @@ fn an_octahedron_has_eight_faces() {
 
 #[test]
 fn no_crossing_of_a_superellipsoid_is_lost() {
-    let mut dice = Dice(13);
+    let mut dice = TestRng::new(13);
     for (e, n) in
         [(0.3, 1.7), (1.7, 0.3), (3.0, 2.5), (2.5, 4.0), (0.1, 0.1), (0.2, 1.0), (1.0, 0.05), (8.0, 1.0)]
     {

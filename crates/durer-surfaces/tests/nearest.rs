@@ -1,13 +1,11 @@
 //! Surfaces of distances to random points against exact arithmetic: where the nearest point is at the
 //! distance `r`, the surface is that of a union of balls.
 
-mod common;
-
-use common::Dice;
 use durer_formula::{Builder, Formula, Op};
 use durer_math::noise::{CellNumbers, Nearest};
 use durer_math::{Dyadic, Point3, Ray, Ring};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
+use durer_testkit::TestRng;
 use std::cmp::Ordering;
 
 /// The distance of the given rank.
@@ -47,7 +45,7 @@ fn sign(rank: usize, r: f64, ray: &Ray, t: f64) -> Ordering {
 
 #[test]
 fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
-    let mut dice = Dice(91);
+    let mut dice = TestRng::new(91);
     let container = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 2.0, 2.0)).unwrap();
     for (rank, r) in [(0, 0.3), (0, 0.6), (1, 0.7), (2, 0.9)] {
         let surface = Isosurface::new(&distance(rank), r, Container::Box(container)).unwrap();

@@ -1,13 +1,11 @@
 //! Surfaces of noise against exact arithmetic: the definition of the noise, written once more in
 //! numbers without rounding.
 
-mod common;
-
-use common::Dice;
 use durer_formula::{Builder, Formula, Op};
 use durer_math::noise::NoiseTable;
 use durer_math::{Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
+use durer_testkit::TestRng;
 use std::cmp::Ordering;
 
 fn number(x: f64) -> Dyadic {
@@ -22,8 +20,8 @@ fn floor(x: &Dyadic) -> f64 {
 
 /// A table of noise: any numbers will do.
 fn numbers() -> ([[f64; 4]; 256], [u16; 4096]) {
-    let mut dice = Dice(78);
-    let points = core::array::from_fn(|_| [0.5, 1.0, 1.0, 1.0].map(|most: f64| most * dice.unit()));
+    let mut dice = TestRng::new(78);
+    let points = core::array::from_fn(|_| [0.5, 1.0, 1.0, 1.0].map(|most: f64| most * dice.signed()));
     // A permutation: multiplication by an odd number.
     (points, core::array::from_fn(|i| (i * 1237 + 411) as u16 % 4096))
 }
@@ -102,7 +100,7 @@ fn sign(is_table: bool, k: f64, ray: &Ray, t: f64) -> Ordering {
 
 #[test]
 fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
-    let mut dice = Dice(76);
+    let mut dice = TestRng::new(76);
     for (k, is_table) in [(0.7, false), (3.0, false), (11.0, false), (0.7, true), (5.0, true)] {
         let formula = bumpy(k).with_noise(is_table.then(table));
         let container = AxisBox::new(Point3::new(-2.0, -2.0, -2.0), Point3::new(2.0, 2.0, 2.0)).unwrap();
@@ -158,7 +156,7 @@ fn brackets_hold_a_change_of_the_exact_sign_and_none_is_left_out() {
 
 #[test]
 fn it_is_the_noise_of_the_tape() {
-    let mut dice = Dice(77);
+    let mut dice = TestRng::new(77);
     let mut b = Builder::new();
     let p = [b.input(0).unwrap(), b.input(1).unwrap(), b.input(2).unwrap()];
     let root = b.push(Op::Noise(None, p)).unwrap();

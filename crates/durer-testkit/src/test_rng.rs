@@ -27,6 +27,11 @@ impl TestRng {
         self.bits() % n
     }
 
+    /// An index below `n`.
+    pub fn index(&mut self, n: usize) -> usize {
+        self.below(n as u64) as usize
+    }
+
     /// True once in `n` times.
     pub fn once_in(&mut self, n: u64) -> bool {
         self.below(n) == 0
@@ -35,6 +40,11 @@ impl TestRng {
     /// A number in `[0, 1)`.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (f64::EPSILON / 2.0)
+    }
+
+    /// A number in `[-1, 1)`.
+    pub fn signed(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
     }
 
     /// A number in `[lo, hi)`.
@@ -86,6 +96,11 @@ impl TestRng {
     /// A vector with components in `[-1, 1]`.
     pub fn vector(&mut self) -> Vec3 {
         Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
+    }
+
+    /// A point with coordinates in `[-size, size)`.
+    pub fn point(&mut self, size: f64) -> Point3 {
+        Point3::new(self.signed() * size, self.signed() * size, self.signed() * size)
     }
 
     /// A map with few-bit entries, sheared, stretched or mirrored; sometimes one with full-width

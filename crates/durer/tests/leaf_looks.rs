@@ -11,36 +11,23 @@ use durer::math::{F8, M8, Ray, Vec3, elementary};
 use durer::pov::ReadOptions;
 use durer::scene::{Lowered, PigmentBody, TextureBody, mask};
 use durer::surfaces::Need;
+use durer_testkit::TestRng;
 use std::fmt::Write as _;
 
-/// A sequence of numbers that look random: a function of the seed and the count (S. Vigna's
-/// SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    fn one_in(&mut self, n: u64) -> bool {
-        self.below(n) == 0
-    }
-
+/// Draws that only these tests need.
+trait Draws {
     /// Between -1 and 1, three digits.
-    fn signed(&mut self) -> f64 {
+    fn thousandth(&mut self) -> f64;
+    fn coordinates(&mut self, size: f64) -> [f64; 3];
+}
+
+impl Draws for TestRng {
+    fn thousandth(&mut self) -> f64 {
         (self.below(2001) as f64 - 1000.0) / 1000.0
     }
 
-    fn vector(&mut self, size: f64) -> [f64; 3] {
-        [0; 3].map(|_| self.signed() * size)
+    fn coordinates(&mut self, size: f64) -> [f64; 3] {
+        [0; 3].map(|_| self.thousandth() * size)
     }
 }
 
@@ -89,7 +76,7 @@ struct Tree {
 
 /// A scene under construction.
 struct Writer {
-    dice: Dice,
+    dice: TestRng,
     text: String,
     /// Objects with names.
     named: Vec<Tree>,
@@ -104,27 +91,27 @@ impl Writer {
 
     fn leaf(&mut self) -> Leaf {
         let dice = &mut self.dice;
-        let corner = dice.vector(1.2);
-        let size = [0; 3].map(|_| 0.5 + dice.signed().abs());
+        let corner = dice.coordinates(1.2);
+        let size = [0; 3].map(|_| 0.5 + dice.thousandth().abs());
         let opposite = [0, 1, 2].map(|i| corner[i] + size[i]);
         match dice.below(8) {
             0..=3 => Leaf::Sphere(corner, size[0]),
             4 | 5 => Leaf::Box(corner, opposite),
             6 => Leaf::Mesh(corner, opposite),
-            _ => Leaf::Plane(loop_until(|| dice.vector(1.0), |n| dot(*n, *n) > 0.1), dice.signed()),
+            _ => Leaf::Plane(loop_until(|| dice.coordinates(1.0), |n| dot(*n, *n) > 0.1), dice.thousandth()),
         }
     }
 
     /// A tree at most so deep. Solids within solids have no sheets, and all that we write is solid.
     fn tree(&mut self, depth: u64) -> Tree {
-        if !self.named.is_empty() && self.dice.one_in(6) {
+        if !self.named.is_empty() && self.dice.once_in(6) {
             let at = self.dice.below(self.named.len() as u64) as usize;
             let mut copy = self.named[at].clone();
             copy.name = Some(at);
             self.dress(&mut copy);
             return copy;
         }
-        let kind = if depth == 0 || self.dice.one_in(4) {
+        let kind = if depth == 0 || self.dice.once_in(4) {
             Kind::Leaf(self.leaf())
         } else {
             let count = 2 + self.dice.below(2);
@@ -147,7 +134,7 @@ impl Writer {
             name: None,
         };
         self.dress(&mut tree);
-        if self.dice.one_in(6) {
+        if self.dice.once_in(6) {
             let text = self.written(&tree);
             let _ = writeln!(self.text, "#declare N{} = {text}", self.named.len());
             self.named.push(tree.clone());
@@ -158,20 +145,20 @@ impl Writer {
 
     /// Adds what may follow an object's parts.
     fn dress(&mut self, tree: &mut Tree) {
-        if tree.colour.is_none() && !self.dice.one_in(3) {
+        if tree.colour.is_none() && !self.dice.once_in(3) {
             tree.colour = Some(self.look());
         }
-        if tree.ior.is_none() && self.dice.one_in(3) {
+        if tree.ior.is_none() && self.dice.once_in(3) {
             tree.ior = Some(self.look());
         }
         for _ in 0..self.dice.below(3) {
             let step = match self.dice.below(3) {
                 0 => {
                     let axis = self.dice.below(3) as usize;
-                    Step::Rotate(axis, self.dice.signed() * 180.0)
+                    Step::Rotate(axis, self.dice.thousandth() * 180.0)
                 }
-                1 => Step::Scale([0; 3].map(|_| 0.7 + self.dice.signed().abs())),
-                _ => Step::Move(self.dice.vector(0.8)),
+                1 => Step::Scale([0; 3].map(|_| 0.7 + self.dice.thousandth().abs())),
+                _ => Step::Move(self.dice.coordinates(0.8)),
             };
             tree.steps.push(step);
         }
@@ -391,7 +378,7 @@ fn combined(is_union: bool, keeps_inner_surfaces: bool, parts: &[Seen]) -> Seen 
 /// A scene as text, and the trees that it was written from.
 fn scene(seed: u64) -> (String, Vec<Tree>) {
     // An index of refraction of 1 is that of nothing.
-    let mut writer = Writer { dice: Dice(seed), text: String::new(), named: Vec::new(), looks: 1 };
+    let mut writer = Writer { dice: TestRng::new(seed), text: String::new(), named: Vec::new(), looks: 1 };
     let count = 1 + writer.dice.below(3);
     let mut objects = Vec::new();
     for _ in 0..count {
@@ -400,7 +387,7 @@ fn scene(seed: u64) -> (String, Vec<Tree>) {
         if object.colour.is_none() {
             object.colour = Some(writer.look());
         }
-        object.no_shadow = writer.dice.one_in(4);
+        object.no_shadow = writer.dice.once_in(4);
         let text = writer.written(&object);
         writer.text.push_str(&text);
         objects.push(object);
@@ -428,15 +415,15 @@ fn look(scene: &Lowered, object: u32, primitive: u32) -> Look {
 }
 
 /// Eight rays from one place.
-fn eight(dice: &mut Dice) -> Rays8 {
+fn eight(dice: &mut TestRng) -> Rays8 {
     let far = [1.0, 3.0, 9.0][dice.below(3) as usize];
-    let from = dice.vector(far);
-    let aim = dice.vector(2.0);
+    let from = dice.coordinates(far);
+    let aim = dice.coordinates(2.0);
     let mut rays = Rays8::NONE;
     rays.live = M8::from_bits(u8::MAX);
     (rays.t_max, rays.source) = (F8::splat(f64::INFINITY), Sources8::NONE);
     for i in 0..8 {
-        let to = dice.vector(0.4);
+        let to = dice.coordinates(0.4);
         let way = [0, 1, 2].map(|k| aim[k] + to[k] - from[k] + 1e-3);
         rays.direction.set_lane(i, Vec3::new(way[0], way[1], way[2]));
         let at = &mut rays.origin;
@@ -477,7 +464,7 @@ fn every_leaf_keeps_its_look() {
         let (text, objects) = scene(seed);
         let lowered = lowered("random", &text);
         let geometry: &Geometry = &lowered.geometry;
-        let mut dice = Dice(!seed);
+        let mut dice = TestRng::new(!seed);
         for _ in 0..12 {
             let rays = [eight(&mut dice)];
             let candidates = geometry.bundle_candidates(&rays);

@@ -2,40 +2,24 @@
 
 use durer_bvh::{Bvh, Frame, Settings};
 use durer_math::Aabb;
+use durer_testkit::TestRng;
 
-/// A generator of pseudorandom numbers (splitmix64).
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// One of `0..n`.
-    pub(crate) fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
+/// Draws that only these tests need.
+pub(crate) trait Draws {
     /// One of `-n..=n`.
     #[allow(dead_code, reason = "not every test needs it")]
-    pub(crate) fn about(&mut self, n: i64) -> i64 {
-        self.below(2 * n as u64 + 1) as i64 - n
-    }
+    fn about(&mut self, n: i64) -> i64;
+}
 
-    /// In `[0, 1)`.
-    #[allow(dead_code, reason = "not every test needs it")]
-    pub(crate) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+impl Draws for TestRng {
+    fn about(&mut self, n: i64) -> i64 {
+        self.below(2 * n as u64 + 1) as i64 - n
     }
 }
 
 /// The position of a scene: at the origin, or up to `2^bits` away on some axes.
 #[allow(dead_code, reason = "not every test needs it")]
-pub(crate) fn place(dice: &mut Dice, bits: u64) -> [i64; 3] {
+pub(crate) fn place(dice: &mut TestRng, bits: u64) -> [i64; 3] {
     if dice.below(2) == 0 {
         return [0; 3];
     }

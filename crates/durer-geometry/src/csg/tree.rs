@@ -451,11 +451,8 @@ mod tests {
 
     #[test]
     fn the_counted_value_is_the_expressions() {
-        let mut state = 1_u64;
-        let mut dice = move |n: u32| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 33) % u64::from(n.max(1))) as u32
-        };
+        let mut rng = durer_testkit::TestRng::new(1);
+        let mut dice = move |n: u32| rng.below(u64::from(n.max(1))) as u32;
         let mut values = Values::default();
         for _ in 0..500 {
             let leaves = 1 + dice(9);

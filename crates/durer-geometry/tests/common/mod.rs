@@ -4,46 +4,25 @@
 use durer_geometry::{Builder, Geometry, ObjectId};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{AxisBox, Disc, Placed, Plane, Sphere, Triangle};
+use durer_testkit::TestRng;
 
-/// A generator of pseudorandom numbers (splitmix64).
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    /// In `[-1, 1)`.
-    pub(crate) fn signed(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn point(&mut self, size: f64) -> Point3 {
-        Point3::new(self.signed() * size, self.signed() * size, self.signed() * size)
-    }
-
-    pub(crate) fn vector(&mut self, size: f64) -> Vec3 {
-        self.point(size).to_vec()
-    }
-
+/// Draws that only worlds need.
+pub(crate) trait Draws {
     /// A point of a coarse grid, where coincidences are common.
-    pub(crate) fn grid(&mut self) -> Point3 {
+    fn grid(&mut self) -> Point3;
+    /// A sheared map; half of them are mirrored.
+    fn affine(&mut self) -> Affine;
+}
+
+impl Draws for TestRng {
+    fn grid(&mut self) -> Point3 {
         let mut x = || self.below(9) as f64 - 4.0;
         Point3::new(x(), x(), x())
     }
 
-    pub(crate) fn affine(&mut self) -> Affine {
+    fn affine(&mut self) -> Affine {
         loop {
-            let rows = [0, 1, 2].map(|_| self.vector(1.5).to_array());
-            // Sheared, and half of them mirrored.
+            let rows = [0, 1, 2].map(|_| (self.vector() * 1.5).to_array());
             if let Ok(map) = Affine::new(rows, self.point(5.0))
                 && map.inverse_norm() < 20.0
             {
@@ -54,9 +33,9 @@ impl Dice {
 }
 
 /// Surfaces of many types; on the grid many touch, coincide and share edges.
-pub(crate) fn fill(builder: &mut Builder, dice: &mut Dice, count: usize, on_grid: bool) {
+pub(crate) fn fill(builder: &mut Builder, dice: &mut TestRng, count: usize, on_grid: bool) {
     for _ in 0..count {
-        let place = |dice: &mut Dice| if on_grid { dice.grid() } else { dice.point(4.0) };
+        let place = |dice: &mut TestRng| if on_grid { dice.grid() } else { dice.point(4.0) };
         let c = place(dice);
         let r = if on_grid { 1.0 + dice.below(2) as f64 } else { 0.05 + 0.4 * dice.signed().abs() };
         match dice.below(6) {
@@ -69,7 +48,7 @@ pub(crate) fn fill(builder: &mut Builder, dice: &mut Dice, count: usize, on_grid
                     Err(_) => builder,
                 }
             }
-            4 => builder.add(Disc::new(c, dice.vector(1.0), r).unwrap()),
+            4 => builder.add(Disc::new(c, dice.vector(), r).unwrap()),
             _ => {
                 let ball = Sphere::new(Point3::ORIGIN, r).unwrap();
                 builder.add(Placed::new(ball, dice.affine()))
@@ -80,10 +59,10 @@ pub(crate) fn fill(builder: &mut Builder, dice: &mut Dice, count: usize, on_grid
 
 /// Random rays, and rays between points of the grid, which meet edges, corners and tangents
 /// exactly.
-pub(crate) fn rays(dice: &mut Dice, count: usize) -> Vec<Ray> {
-    let ray = |dice: &mut Dice| loop {
+pub(crate) fn rays(dice: &mut TestRng, count: usize) -> Vec<Ray> {
+    let ray = |dice: &mut TestRng| loop {
         let ray = if dice.below(2) == 0 {
-            Ray::new(dice.point(8.0), dice.vector(1.0))
+            Ray::new(dice.point(8.0), dice.vector())
         } else {
             let (a, b) = (dice.grid(), dice.grid());
             Ray::new(a, b - a)

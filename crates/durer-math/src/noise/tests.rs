@@ -3,6 +3,7 @@
 use super::bounds::{BEND, CORNER, SLOPE, TWIST};
 use super::*;
 use crate::{Dyadic, I8, Interval, Ring};
+use durer_testkit::TestRng;
 
 /// A table with values and slopes up to 0.7 and 1.3.
 fn table() -> &'static NoiseTable {
@@ -11,7 +12,7 @@ fn table() -> &'static NoiseTable {
 }
 
 fn numbers() -> ([[f64; 4]; 256], [u16; 4096]) {
-    let mut dice = Dice(77);
+    let mut dice = TestRng::new(77);
     let mut random = |most: f64| (dice.unit() * 2.0 - 1.0) * most;
     let points = core::array::from_fn(|_| [random(0.7), random(1.3), random(1.3), random(1.3)]);
     // A permutation: multiplication by an odd number.
@@ -64,23 +65,12 @@ fn exact(table: Option<&NoiseTable>, p: [f64; 3]) -> [Dyadic; 4] {
     sum
 }
 
-/// Numbers of all kinds: in cells, on their faces and next to these, small and large, of both
-/// signs.
-struct Dice(u64);
+/// Draws that only these tests need.
+trait Draws {
+    fn number(&mut self) -> f64;
+}
 
-impl Dice {
-    fn bits(&mut self) -> u64 {
-        // S. Vigna's SplitMix64.
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
+impl Draws for TestRng {
     fn number(&mut self) -> f64 {
         let x = (self.unit() - 0.5) * [1.0, 20.0, 1e4, 1e10, 1e17][(self.bits() % 5) as usize];
         match self.bits() % 8 {
@@ -100,7 +90,7 @@ fn is_within(x: &Dyadic, lo: f64, hi: f64) -> bool {
 
 #[test]
 fn rounded_values_and_slopes_are_as_near_as_is_said() {
-    let mut dice = Dice(1);
+    let mut dice = TestRng::new(1);
     for i in 0..40_000 {
         let table = (i % 2 == 0).then(table);
         let p = [dice.number(), dice.number(), dice.number()];
@@ -132,7 +122,7 @@ fn single<L: Lattice>(lattice: L, whole: [f64; 3], t: [f32; 3]) -> Sum<f32> {
 /// point 0.
 #[test]
 fn single_precision_is_as_near_as_is_said() {
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     let mut worst = [0.0_f64; 2];
     for i in 0..40_000 {
         let table = (i % 2 == 0).then(table);
@@ -177,11 +167,11 @@ fn pictures_of_noise_stay_what_they_are() {
 
 #[test]
 fn bounds_hold_exact_values_and_rounded_ones() {
-    let mut dice = Dice(2);
+    let mut dice = TestRng::new(2);
     for i in 0..6_000 {
         let table = (i % 2 == 0).then(table);
         let any_size =
-            |dice: &mut Dice| [0.0, 1e-12, 1e-4, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 8) as usize];
+            |dice: &mut TestRng| [0.0, 1e-12, 1e-4, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 8) as usize];
         let (is_mixed, mut size) = (dice.bits().is_multiple_of(2), any_size(&mut dice));
         let mut boxes = [I8::new(F8::ZERO, F8::ZERO); 3];
         for i in 0..8 {
@@ -252,7 +242,7 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
 
 #[test]
 fn values_and_slopes_go_on_from_cell_to_cell() {
-    let mut dice = Dice(3);
+    let mut dice = TestRng::new(3);
     for i in 0..10_000 {
         let table = (i % 2 == 0).then(table);
         let mut p = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
@@ -320,7 +310,7 @@ fn corners_are_alike_and_know_nothing_of_each_other() {
 
 #[test]
 fn bounds_of_small_boxes_are_hardly_wider_than_the_values() {
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for (size, most, beside_large) in [
         (0.1, 3.0, false),
         (0.02, 2.0, false),

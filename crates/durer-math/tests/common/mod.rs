@@ -73,21 +73,3 @@ pub(crate) fn triple(x: impl Strategy<Value = f64> + 'static) -> impl Strategy<V
     let x = x.boxed();
     [x.clone(), x.clone(), x]
 }
-
-/// A counter-based generator (S. Vigna's SplitMix64).
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In `[-1, 1)`.
-    pub(crate) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * f64::EPSILON - 1.0
-    }
-}

@@ -1,9 +1,10 @@
 //! Identities of sets, tested on solids, crossing by crossing and bit by bit: `A - A` is empty,
 //! `A | A = A`, De Morgan's laws, `A - (A - B) = A & B`.
 
-use super::{Dice, lowered};
+use super::{Draws, lowered};
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
+use durer_testkit::TestRng;
 
 /// Every kind of solid, placed so that many have faces, edges and tangent planes in common.
 const KINDS: [(&str, &str); 54] = [
@@ -165,7 +166,7 @@ fn sides_fit(name: &str, scene: &Lowered, ray: &Ray) {
 }
 
 /// Rays at multiples of a quarter, and some that touch the surfaces or miss them by rounding.
-fn rays(dice: &mut Dice, scenes: [&Lowered; 2], count: usize) -> Vec<Ray> {
+fn rays(dice: &mut TestRng, scenes: [&Lowered; 2], count: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     while rays.len() < count {
         let ray = dice.ray();
@@ -188,7 +189,7 @@ fn rays(dice: &mut Dice, scenes: [&Lowered; 2], count: usize) -> Vec<Ray> {
 
 #[test]
 fn nothing_is_left_of_a_solid_without_itself() {
-    let mut dice = Dice(1);
+    let mut dice = TestRng::new(1);
     for (name, a) in KINDS {
         let (alone, empty) = (lowered(a), lowered(&format!("difference {{ {a} {a} }}")));
         let rays = rays(&mut dice, [&alone, &alone], 160);
@@ -232,7 +233,7 @@ fn identities((a_name, a): (&str, &str), (b_name, b): (&str, &str), seed: u64) -
     let neither = body(format!("merge {{ {a} {b} inverse }}"));
     let outside = body(format!("intersection {{ {not_a} {not_b} }}"));
     let split = body(format!("merge {{ difference {{ {a} {b} }} intersection {{ {a} {b} }} }}"));
-    let mut dice = Dice(seed);
+    let mut dice = TestRng::new(seed);
     let mut met = 0;
     let rays = rays(&mut dice, [&own, &other], 36);
     let (count, mut unsure) = (rays.len(), 0);
@@ -310,7 +311,7 @@ fn bodies_that_touch_fuse() {
         ),
     ] {
         let (fused_scene, whole_scene) = (lowered(&fused), lowered(&whole));
-        let mut dice = Dice(11);
+        let mut dice = TestRng::new(11);
         let mut met = 0;
         for ray in rays(&mut dice, [&whole_scene, &whole_scene], 600) {
             let signs = |scene: &Lowered| {

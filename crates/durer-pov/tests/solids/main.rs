@@ -8,41 +8,34 @@ mod volumes;
 
 use durer_math::{Point3, Ray, Vec3};
 use durer_scene::Lowered;
+use durer_testkit::TestRng;
 
 /// The scene of `text`, prepared for rays.
 fn lowered(text: &str) -> Lowered {
     support::scene(text).lower().unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// A pseudorandom sequence, a function of the seed and the count (S. Vigna's SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    /// A number in `[0, 1)`.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
+/// Draws that only these tests need.
+trait Draws {
     /// A point with coordinates that are multiples of 1/4 between -2 and 2: corners, edges and
     /// faces of the solids lie there.
+    fn quarter(&mut self) -> Point3;
+    /// A point with coordinates of twenty bits, between -2 and 2.
+    fn dyadic(&mut self) -> Point3;
+    fn axis(&mut self) -> Vec3;
+    /// A direction of length 1, uniformly distributed.
+    fn direction(&mut self) -> Vec3;
+    /// A ray with dyadic numbers: from far or near, towards faces and edges or anywhere, often
+    /// along an axis or a diagonal.
+    fn ray(&mut self) -> Ray;
+}
+
+impl Draws for TestRng {
     fn quarter(&mut self) -> Point3 {
         let mut x = || self.below(17) as f64 * 0.25 - 2.0;
         Point3::new(x(), x(), x())
     }
 
-    /// A point with coordinates of twenty bits, between -2 and 2.
     fn dyadic(&mut self) -> Point3 {
         let mut x = || self.below(1 << 20) as f64 / (1 << 18) as f64 - 2.0;
         Point3::new(x(), x(), x())
@@ -54,7 +47,6 @@ impl Dice {
         Vec3::from(d)
     }
 
-    /// A direction of length 1, uniformly distributed.
     fn direction(&mut self) -> Vec3 {
         loop {
             let mut x = || 2.0 * self.unit() - 1.0;
@@ -66,8 +58,6 @@ impl Dice {
         }
     }
 
-    /// A ray with dyadic numbers: from far or near, towards faces and edges or anywhere, often
-    /// along an axis or a diagonal.
     fn ray(&mut self) -> Ray {
         let aim = if self.below(3) == 0 { self.dyadic() } else { self.quarter() };
         let d = match self.below(5) {

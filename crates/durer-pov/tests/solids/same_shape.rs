@@ -1,7 +1,8 @@
 //! One solid written in several ways: the same rays meet it at the same places.
 
-use super::{Dice, lowered};
+use super::{Draws, lowered};
 use durer_math::Ray;
+use durer_testkit::TestRng;
 
 /// Each line shows exactly the same set of points.
 const WAYS: [&[&str]; 9] = [
@@ -44,7 +45,7 @@ const WAYS: [&[&str]; 9] = [
 
 #[test]
 fn one_solid_written_in_several_ways_is_met_at_the_same_places() {
-    let mut dice = Dice(37);
+    let mut dice = TestRng::new(37);
     for ways in WAYS {
         let scenes: Vec<_> = ways.iter().map(|text| lowered(text)).collect();
         let (mut met, mut rays) = (0, 0);

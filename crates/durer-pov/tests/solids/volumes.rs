@@ -2,9 +2,10 @@
 //! its volume, whatever the direction (M. W. Crofton, 1868, and B. Cavalieri before him). The
 //! expected values are closed forms.
 
-use super::{Dice, lowered};
+use super::{Draws, lowered};
 use core::f64::consts::PI;
 use durer_math::{Point3, Ray, Vec3};
+use durer_testkit::TestRng;
 
 /// The number of bundles, each with a direction of its own.
 const BUNDLES: u32 = 24;
@@ -21,7 +22,7 @@ fn volume(text: &str, seed: u64) -> (f64, f64) {
     } else {
         (Point3::ORIGIN, Vec3::new(1.5, 1.5, 1.5))
     };
-    let mut dice = Dice(seed);
+    let mut dice = TestRng::new(seed);
     let estimates: Vec<f64> = (0..BUNDLES)
         .map(|_| {
             let d = dice.direction();

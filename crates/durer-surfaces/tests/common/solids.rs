@@ -1,13 +1,18 @@
 //! Random rays, and all roots that they have.
 
-use crate::common::Dice;
 use durer_math::{Ray, Vec3};
 use durer_surfaces::{All, LocalRay, Root, RootKind, Surface};
+use durer_testkit::TestRng;
 
-impl Dice {
+/// Draws that only these tests need.
+pub(crate) trait Draws {
     /// A ray through the cube around the origin, from near and far; often along an axis, in a plane
     /// between octants, or through the origin.
-    pub(crate) fn ray(&mut self) -> Ray {
+    fn ray(&mut self) -> Ray;
+}
+
+impl Draws for TestRng {
+    fn ray(&mut self) -> Ray {
         let mut through = self.vector();
         let mut direction = self.vector();
         match self.below(6) {

@@ -2,30 +2,30 @@
 //! ulps beside.
 
 use super::worlds::{World, all_worlds};
-use super::{Aim, Dice, Tally, compare, eight, point};
+use super::{Aim, Tally, TestRng, compare, eight, point};
 use durer_math::{Isa, Point3, Ray};
 
 /// The range of a ray that is aimed at `t = 1`.
-fn range(dice: &mut Dice) -> f64 {
-    [f64::INFINITY, f64::INFINITY, f64::INFINITY, 1.0, 1.0_f64.next_down(), 0.5][dice.below(6)]
+fn range(dice: &mut TestRng) -> f64 {
+    [f64::INFINITY, f64::INFINITY, f64::INFINITY, 1.0, 1.0_f64.next_down(), 0.5][dice.index(6)]
 }
 
 /// A point of a grid of quarters, half the time of one of halves, up to 2 from the origin.
-fn grid(dice: &mut Dice) -> Point3 {
-    let step = [2.0, 4.0][dice.below(2)];
-    let mut axis = || (dice.unit() * 2.0 * step).round() / step;
+fn grid(dice: &mut TestRng) -> Point3 {
+    let step = [2.0, 4.0][dice.index(2)];
+    let mut axis = || (dice.signed() * 2.0 * step).round() / step;
     point(axis(), axis(), axis())
 }
 
 /// A number that is up to `2^k` ulps beside `x`, for one `k` at random.
-fn beside(x: f64, dice: &mut Dice) -> f64 {
-    let far = dice.unit() * durer_math::scale::pow2(dice.below(30) as i32 - 4);
+fn beside(x: f64, dice: &mut TestRng) -> f64 {
+    let far = dice.signed() * durer_math::scale::pow2(dice.below(30) as i32 - 4);
     x + far * x.abs().max(0.25) * f64::EPSILON
 }
 
 #[test]
 fn rays_on_a_grid() {
-    let mut dice = Dice(3);
+    let mut dice = TestRng::new(3);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();
         for round in 0..60 {
@@ -33,7 +33,7 @@ fn rays_on_a_grid() {
                 let (mut from, mut to) = (grid(&mut dice), grid(&mut dice));
                 if round % 3 == 0 {
                     // Along an axis of the surface's own frame.
-                    let axis = dice.below(3);
+                    let axis = dice.index(3);
                     let keep = to;
                     to = from;
                     match axis {
@@ -64,13 +64,12 @@ fn met(world: &World, from: Point3, to: Point3) -> Option<(u32, u32, u32)> {
 fn rays_at_a_border() {
     // If one of two targets is hit and the other is not, or on another face, there is a border
     // between them. A bisection with exact answers finds it.
-    let mut dice = Dice(4);
+    let mut dice = TestRng::new(4);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();
         for round in 0..40 {
-            let from = world.place(dice.vector([3.0, 100.0, 1.0][round % 3]).to_point());
-            let (mut a, mut b) =
-                (world.place(dice.vector(1.5).to_point()), world.place(dice.vector(1.5).to_point()));
+            let from = world.place(dice.point([3.0, 100.0, 1.0][round % 3]));
+            let (mut a, mut b) = (world.place(dice.point(1.5)), world.place(dice.point(1.5)));
             let here = met(&world, from, a);
             if met(&world, from, b) == here {
                 continue;
@@ -99,12 +98,12 @@ fn rays_at_a_border() {
 #[test]
 fn numbers_near_the_end_of_their_range() {
     // Products of such lengths are subnormal or infinite.
-    let mut dice = Dice(5);
+    let mut dice = TestRng::new(5);
     for world in all_worlds(Isa::detect()) {
         let mut tally = Tally::default();
         for k in [-540, -525, -510, -300, -101, 101, 300, 510, 525] {
             let long = eight(|_| {
-                let (from, to) = (dice.vector(2.0).to_point(), dice.vector(1.0).to_point());
+                let (from, to) = (dice.point(2.0), dice.point(1.0));
                 let (from, to) = (world.place(from), world.place(to));
                 Ray::new(from, (to - from) * durer_math::scale::pow2(k))
             });
@@ -112,7 +111,7 @@ fn numbers_near_the_end_of_their_range() {
             // Near the origin, which is a tip or a centre of some surfaces.
             let near = eight(|i| {
                 let small = durer_math::scale::pow2(k.min(-k));
-                let (from, to) = (dice.vector(2.0) * small, dice.vector(1.0) * small);
+                let (from, to) = (dice.vector() * 2.0 * small, dice.vector() * small);
                 Ray::new(from.to_point(), (to - from) * if i < 4 { 1.0 } else { 1.0 / small })
             });
             compare(&world, Aim::Trouble, &near, &mut dice, 0, &mut tally);

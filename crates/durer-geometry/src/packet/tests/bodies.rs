@@ -1,7 +1,7 @@
 //! CSG solids, beside each other and beside simple surfaces.
 
 use super::worlds::{World, crossed_eight, crossed_star, heart, map, placements, tent};
-use super::{Aim, Dice, OF_HIGHER_DEGREE, Tally, compare, eight, point};
+use super::{Aim, OF_HIGHER_DEGREE, Tally, TestRng, compare, eight, point};
 use crate::{Geometry, LeafId, Shown};
 use durer_math::{Affine, Point3, Ray, Vec3};
 use durer_surfaces::{
@@ -266,28 +266,28 @@ fn placed() -> Vec<World> {
 }
 
 /// Random CSG solids of balls, boxes and tubes: deep trees and flat ones.
-fn at_random(dice: &mut Dice) -> World {
+fn at_random(dice: &mut TestRng) -> World {
     let csg = &mut crate::Compound::builder();
     let mut parts = Vec::new();
-    for i in 0..2 + dice.below(7) {
-        let (c, size) = (dice.vector(0.8).to_point(), 0.4 + 0.3 * dice.unit());
+    for i in 0..2 + dice.index(7) {
+        let (c, size) = (dice.point(0.8), 0.4 + 0.3 * dice.signed());
         let half = Vec3::new(size, size, size * 0.7);
-        let leaf = match dice.below(4) {
+        let leaf = match dice.index(4) {
             0 => csg.leaf(Sphere::new(c, size).unwrap()),
             1 => csg.leaf(AxisBox::new(c - half, c + half).unwrap()),
             2 => csg.leaf(Placed::new(AxisBox::new(c - half, c + half).unwrap(), map())),
-            _ => csg.leaf(CappedCylinder::new(c - half, c + dice.vector(1.0), size).unwrap()),
+            _ => csg.leaf(CappedCylinder::new(c - half, c + dice.vector(), size).unwrap()),
         };
         let leaf = leaf.unwrap();
         // Every leaf but the first may be complemented.
-        parts.push(if i > 0 && dice.below(4) == 0 { csg.inverse(leaf) } else { leaf });
+        parts.push(if i > 0 && dice.index(4) == 0 { csg.inverse(leaf) } else { leaf });
     }
     while parts.len() > 1 {
-        let some: Vec<_> = (0..parts.len().min(2 + dice.below(3)))
-            .map(|_| parts.swap_remove(dice.below(parts.len())))
+        let some: Vec<_> = (0..parts.len().min(2 + dice.index(3)))
+            .map(|_| parts.swap_remove(dice.index(parts.len())))
             .collect();
-        let part = if dice.below(2) == 0 { csg.union(some) } else { csg.intersection(some) };
-        parts.push(if dice.below(4) == 0 { csg.inverse(part) } else { part });
+        let part = if dice.index(2) == 0 { csg.union(some) } else { csg.intersection(some) };
+        parts.push(if dice.index(4) == 0 { csg.inverse(part) } else { part });
     }
     let whole = parts.remove(0);
     let body = csg.build(whole).unwrap();
@@ -295,13 +295,13 @@ fn at_random(dice: &mut Dice) -> World {
 }
 
 /// Rays at a world and from its surface; how many there were, and how many fell back.
-fn tally(world: &World, rounds: usize, dice: &mut Dice) -> Tally {
+fn tally(world: &World, rounds: usize, dice: &mut TestRng) -> Tally {
     let mut tally = Tally::default();
     for round in 0..rounds {
         let far = [4.0, 1.0, 1000.0, 30.0][round % 4];
         let rays = eight(|_| {
-            let from = world.place(dice.vector(far).to_point());
-            Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+            let from = world.place(dice.point(far));
+            Ray::new(from, world.place(dice.point(1.0)) - from)
         });
         compare(world, Aim::Random, &rays, dice, 3, &mut tally);
     }
@@ -310,7 +310,7 @@ fn tally(world: &World, rounds: usize, dice: &mut Dice) -> Tally {
 
 #[test]
 fn lanes_see_what_single_rays_see_of_solids_of_solids() {
-    let mut dice = Dice(7);
+    let mut dice = TestRng::new(7);
     for world in bodies() {
         let tally = tally(&world, 200, &mut dice);
         println!("{}: {} rays, {} asked", world.name, tally.rays, tally.asked);
@@ -329,7 +329,7 @@ fn lanes_see_what_single_rays_see_of_solids_of_solids() {
 
 #[test]
 fn lanes_see_prisms_in_each_other_wherever_they_are_placed() {
-    let mut dice = Dice(9);
+    let mut dice = TestRng::new(9);
     let mut bodies: Vec<(&str, Tally)> = Vec::new();
     for world in placed() {
         let tally = tally(&world, 100, &mut dice);
@@ -347,7 +347,7 @@ fn lanes_see_prisms_in_each_other_wherever_they_are_placed() {
 
 #[test]
 fn lanes_see_bodies_at_random() {
-    let mut dice = Dice(8);
+    let mut dice = TestRng::new(8);
     let mut all = Tally::default();
     for _ in 0..300 {
         let world = at_random(&mut dice);

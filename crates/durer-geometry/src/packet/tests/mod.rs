@@ -13,25 +13,7 @@ use crate::Hit;
 use durer_math::lanes::LANES;
 use durer_math::{Ray, U};
 use durer_surfaces::{RootKind, Side, SurfacePoint};
-
-/// Random numbers in `[-1, 1)`.
-struct Dice(u64);
-
-impl Dice {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self, size: f64) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * size
-    }
-
-    /// One of `0..n`.
-    fn below(&mut self, n: usize) -> usize {
-        (((self.unit() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
-    }
-}
+use durer_testkit::TestRng;
 
 fn point(x: f64, y: f64, z: f64) -> Point3 {
     Point3::new(x, y, z)
@@ -126,7 +108,7 @@ const OF_HIGHER_DEGREE: [&str; 46] = [
 
 /// Compares packets with single rays, and repeats this `depth` times with rays that are spawned at
 /// the hits.
-fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut Dice, depth: u32, tally: &mut Tally) {
+fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut TestRng, depth: u32, tally: &mut Tally) {
     let geometry = &world.geometry;
     let mut hits = Hits8::NONE;
     let scratch = &mut Scratch::default();
@@ -305,10 +287,10 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
 
 /// Rays that are spawned at hits, in random directions or nearly along the surface. The other lanes
 /// hold rays that were there before.
-fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
+fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut TestRng) -> Rays8 {
     let mut onward = *rays;
     for i in hits.hit.lanes() {
-        let (d, n) = (dice.vector(1.0), hits.ng.lane(i));
+        let (d, n) = (dice.vector(), hits.ng.lane(i));
         let graze = if aim == Aim::Trouble { 1.0 - durer_math::scale::pow2(-7 * i as i32) } else { 0.0 };
         onward.direction.set_lane(i, d - n * (n.dot(d) * graze));
     }
@@ -325,7 +307,7 @@ fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut Dice) -> Rays8 {
 /// Filters that classify segments test many packets at once, and rays change their lanes meanwhile.
 #[test]
 fn many_eights_together_see_what_single_rays_see() {
-    let mut dice = Dice(11);
+    let mut dice = TestRng::new(11);
     let scratch = &mut Scratch::default();
     let (mut worlds, mut all) = (0, Tally::default());
     for world in &all_worlds(Isa::detect()) {
@@ -334,8 +316,8 @@ fn many_eights_together_see_what_single_rays_see() {
         for round in 0..12 {
             let far = [4.0, 1.0, 100.0][round % 3];
             let mut ray = |_| {
-                let from = world.place(dice.vector(far).to_point());
-                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+                let from = world.place(dice.point(far));
+                Ray::new(from, world.place(dice.point(1.0)) - from)
             };
             // Full and half empty packets, one without a ray, and fewer packets than are tested
             // together.
@@ -370,7 +352,7 @@ fn many_eights_together_see_what_single_rays_see() {
 
 #[test]
 fn lanes_see_what_single_rays_see() {
-    let mut dice = Dice(1);
+    let mut dice = TestRng::new(1);
     let mut surfaces: Vec<(&str, Tally)> = Vec::new();
     let mut many = Vec::new();
     let mut worlds = all_worlds(Isa::detect());
@@ -381,10 +363,10 @@ fn lanes_see_what_single_rays_see() {
             // From around, from far away, and from inside.
             let far = [4.0, 1.0, 1000.0, 30.0][round % 4];
             let rays = eight(|_| {
-                let from = world.place(dice.vector(far).to_point());
-                let way = world.place(dice.vector(1.0).to_point()) - from;
+                let from = world.place(dice.point(far));
+                let way = world.place(dice.point(1.0)) - from;
                 // Directions have any length.
-                let length = durer_math::scale::pow2([0, 60, -60][dice.below(3)]);
+                let length = durer_math::scale::pow2([0, 60, -60][dice.index(3)]);
                 let t_max = if round % 8 < 6 { f64::INFINITY } else { 1.0 / length };
                 Ray::new(from, way * length).with_range(0.0, t_max)
             });
@@ -442,13 +424,13 @@ fn lanes_see_what_single_rays_see() {
 
 #[test]
 fn what_is_clipped_within_its_box_is_seen() {
-    let mut dice = Dice(6);
+    let mut dice = TestRng::new(6);
     for world in clipped_worlds(Isa::detect()) {
         let mut tally = Tally::default();
         for _ in 0..64 {
             let rays = eight(|_| {
-                let from = world.place(dice.vector(4.0).to_point());
-                Ray::new(from, world.place(dice.vector(0.75).to_point()) - from)
+                let from = world.place(dice.point(4.0));
+                Ray::new(from, world.place(dice.point(0.75)) - from)
             });
             compare(&world, Aim::Random, &rays, &mut dice, 0, &mut tally);
         }
@@ -459,7 +441,7 @@ fn what_is_clipped_within_its_box_is_seen() {
 /// The distance from the ray's origin to its start has no influence on how near counts as close.
 #[test]
 fn rays_from_within_level_sets_are_seen() {
-    let mut dice = Dice(7);
+    let mut dice = TestRng::new(7);
     // Far from the origin points have larger error bounds than that.
     let far = |name: &str| name.contains("far") || name.contains("returned");
     let within = |w: &&World| ["cushion", "egg"].contains(&w.surface) && !far(&w.name);
@@ -467,8 +449,8 @@ fn rays_from_within_level_sets_are_seen() {
         let mut tally = Tally::default();
         for _ in 0..64 {
             let rays = eight(|_| {
-                let from = world.place(dice.vector(0.125).to_point());
-                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+                let from = world.place(dice.point(0.125));
+                Ray::new(from, world.place(dice.point(1.0)) - from)
             });
             compare(world, Aim::Random, &rays, &mut dice, 0, &mut tally);
         }
@@ -480,13 +462,13 @@ fn rays_from_within_level_sets_are_seen() {
 #[test]
 fn all_paths_see_the_same_bits() {
     let paths: Vec<_> = Isa::available().map(all_worlds).collect();
-    let mut dice = Dice(2);
+    let mut dice = TestRng::new(2);
     for i in 0..paths[0].len() {
         for _ in 0..8 {
             let world = &paths[0][i];
             let rays = eight(|_| {
-                let from = world.place(dice.vector(3.0).to_point());
-                Ray::new(from, world.place(dice.vector(1.0).to_point()) - from)
+                let from = world.place(dice.point(3.0));
+                Ray::new(from, world.place(dice.point(1.0)) - from)
             });
             let seen = paths.iter().map(|worlds| {
                 let mut hits = Hits8::NONE;
