@@ -1,9 +1,9 @@
 //! Formulas written with operators.
 
 use super::{Builder, Formula, FormulaError, NodeId, Op};
+use crate::{Comparison, Function};
 use core::cell::RefCell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use durer_math::{Comparison, Function};
 
 /// A subexpression of a formula that is being written: see [`Formula::of`].
 #[derive(Clone, Copy)]

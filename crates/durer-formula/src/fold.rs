@@ -2,8 +2,9 @@
 //! defined, and are defined on the same points.
 
 use super::formula::{NodeId, Op};
+use crate::{Comparison, Function, I8, Number};
+use durer_math::Interval;
 use durer_math::interval::elementary::{Defined, Range};
-use durer_math::{Comparison, Function, I8, Interval, Number};
 
 /// The result of a step.
 pub(super) enum Simpler {

@@ -1,8 +1,9 @@
 //! A formula is a list of steps, each of which uses the results of earlier ones.
 
 use super::fold;
-use durer_math::noise::{Nearest, NoiseTable};
-use durer_math::{Comparison, Function, Interval};
+use crate::noise::{Nearest, NoiseTable};
+use crate::{Comparison, Function};
+use durer_math::Interval;
 use std::collections::HashMap;
 
 /// More steps than this no formula may have.

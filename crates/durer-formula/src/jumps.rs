@@ -15,8 +15,9 @@
 use super::formula::{NodeId, Op};
 use super::program::run_with;
 use super::seed;
+use crate::{Dual, Function, I8, Number};
 use arrayvec::ArrayVec;
-use durer_math::{Dual, Function, I8, Interval, Number, Point3, Vec3};
+use durer_math::{Interval, Point3, Vec3};
 
 /// Sides of so many choices are told apart: lanes are eight.
 const MOST_JUMPS: usize = 3;

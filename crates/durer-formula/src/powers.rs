@@ -8,8 +8,9 @@
 //! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is
 //! [`Powers::UNKNOWN`], and so is all that is made of it.
 
-use durer_math::noise::{Nearest, NoiseTable};
-use durer_math::{Comparison, Function, Interval, Joined, Number, U};
+use crate::noise::{Nearest, NoiseTable};
+use crate::{Comparison, Function, Joined, Number};
+use durer_math::{Interval, U};
 use durer_roots::bernstein::FLOOR;
 
 /// A polynomial of degree up to 16.

@@ -4,7 +4,8 @@ use super::fold;
 use super::formula::{Formula, NodeId, Op, live};
 use super::jumps;
 use super::powers::Powers;
-use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number, Point3, Sloped, Vec3};
+use crate::{Dual, Gradient, I8, Number, Sloped};
+use durer_math::{F8, Interval, Isa, Point3, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::thread::LocalKey;
@@ -347,7 +348,7 @@ enum Decided {
 
 /// Whether there is anything about a step that a box may decide.
 fn is_decidable(op: &Op) -> bool {
-    use durer_math::Function::{Ceil, Floor, Trunc};
+    use crate::Function::{Ceil, Floor, Trunc};
     match op {
         Op::Min(..) | Op::Max(..) | Op::Abs(_) | Op::Select(_) | Op::Joined(_) | Op::Compare(..) => true,
         Op::Function(f, _) => matches!(f, Floor | Ceil | Trunc),
@@ -415,9 +416,9 @@ fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
         Op::Function(f, a) => {
             let x = at(a)?;
             let (range, defined) = match f {
-                durer_math::Function::Floor => x.floor(),
-                durer_math::Function::Ceil => x.ceil(),
-                durer_math::Function::Trunc => x.trunc(),
+                crate::Function::Floor => x.floor(),
+                crate::Function::Ceil => x.ceil(),
+                crate::Function::Trunc => x.trunc(),
                 _ => return None,
             };
             if defined != durer_math::interval::elementary::Defined::Continuous {

@@ -2,7 +2,8 @@
 
 use super::formula::{Builder, Formula, FormulaError, NodeId, Op};
 use super::program::run_with;
-use durer_math::{Dual, F8, Gradient, I8, Interval, Isa, Number};
+use crate::{Dual, Gradient, I8, Number};
+use durer_math::{F8, Interval, Isa};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::thread::LocalKey;

@@ -36,7 +36,7 @@
 //! ```
 //!
 //! **Geometry.** [`Point3`], [`Vec3`] and [`Normal3`] are three types, generic over a [`Scalar`]:
-//! f64, [`Interval`] or [`Dual`]. [`Ray`] is `o + t d` with a direction of any length; [`Affine`]
+//! f64, [`Interval`] or a dual number. [`Ray`] is `o + t d` with a direction of any length; [`Affine`]
 //! is `c + L x` with a proven bound on its rounded inverse; [`Aabb`] a box, and a conservative
 //! bound.
 //!
@@ -57,7 +57,6 @@ mod aabb;
 pub mod affine;
 pub mod dd;
 mod directions;
-pub mod dual;
 pub mod dyadic;
 pub mod efloat;
 pub mod eft;
@@ -65,18 +64,9 @@ pub mod elementary;
 mod exact_sum;
 mod gamma;
 pub mod interval;
-mod joined;
 pub mod kernels;
 pub mod ladder;
-mod lane_angles;
-pub mod lane_intervals;
-pub mod lane_logs;
-mod lane_numbers;
-mod lane_powers;
-mod lane_waves;
 pub mod lanes;
-pub mod noise;
-pub mod number;
 pub mod predicates;
 mod ray;
 pub mod real;
@@ -91,16 +81,12 @@ pub use crate::aabb::Aabb;
 pub use crate::affine::{Affine, AffineError, Matrix3};
 pub use crate::dd::Dd;
 pub use crate::directions::CombinationError;
-pub use crate::dual::Dual;
 pub use crate::dyadic::Dyadic;
 pub use crate::efloat::EFloat;
 pub use crate::gamma::{U, gamma};
 pub use crate::interval::Interval;
-pub use crate::joined::Joined;
 pub use crate::kernels::{Isa, IsaError};
-pub use crate::lane_intervals::I8;
 pub use crate::lanes::{F8, M8};
-pub use crate::number::{Comparison, Function, Gradient, Number, Sloped, Slopes};
 pub use crate::predicates::{Edge, EdgeRay};
 pub use crate::ray::{Ray, RaySide, Source};
 pub use crate::ring::Ring;

@@ -8,8 +8,9 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_formula::{Comparison, Function};
 use durer_formula::{Formula, FormulaError, NodeId, Op};
-use durer_math::{Comparison, Function, Interval, Point3};
+use durer_math::{Interval, Point3};
 use durer_scene::{Container, Isosurface};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};

@@ -18,10 +18,11 @@
 //! clamped only in the first octave). `t` is the turbulence, and `a` is agate's own. All this was
 //! found from POV-Ray's values, with POV-Ray's own noise, and agrees with them to rounding.
 
+use durer_formula::noise;
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_math::noise::NoiseTable;
 use durer_math::scale::pow2;
-use durer_math::{F8, elementary, noise};
+use durer_math::{F8, elementary};
 
 use crate::formulas;
 use crate::keywords::Keyword;

@@ -13,8 +13,8 @@
 
 use std::sync::Arc;
 
+use durer_formula::noise::Nearest;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_math::noise::Nearest;
 use durer_scene::{Crackle, Ramp, TextureSource};
 
 use crate::diagnostics::{self, Error, ErrorKind, Place};

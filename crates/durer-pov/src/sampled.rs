@@ -8,9 +8,9 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId};
 use durer_math::Interval;
-use durer_math::noise::NoiseTable;
 use durer_render::FunctionValues;
 use durer_scene::{LearnedNoise, SampledFunction, Settings, TextureSample, TextureSource};
 

@@ -1,8 +1,8 @@
 //! Functions of x, y and z, or of u and v, from a list of steps: what Python's side traces from a text or a callable.
 
 use crate::value_error;
-use durer::formula::{Builder, Formula, NodeId, Op};
-use durer::math::{Comparison, Function, Interval};
+use durer::formula::{Builder, Comparison, Formula, Function, NodeId, Op};
+use durer::math::Interval;
 use pyo3::prelude::*;
 
 /// The name of a step, the numbers of earlier steps that it uses, and its constant if it has one.

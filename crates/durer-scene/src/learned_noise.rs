@@ -9,8 +9,8 @@
 //! `b`, `b + 4` and `b + 8`. The table is not part of durer: it is measured from an installed
 //! POV-Ray.
 
-use durer_math::noise::permutation::{PERIOD, permutation, wide_hash};
-use durer_math::noise::{self, NoiseTable};
+use durer_formula::noise::permutation::{PERIOD, permutation, wide_hash};
+use durer_formula::noise::{self, NoiseTable};
 use durer_math::{F8, Point3, Vec3};
 
 /// The length of the table.

@@ -70,7 +70,7 @@ pub use crate::shape::{
     Prism, QuadricKind, Shape, Spline, StraightSweep, Sweep, TriangularPatch,
 };
 pub use crate::texture::{FieldWeights, Fields, Layer, Pigment, PigmentBody, Texture, TextureBody};
-pub use durer_math::noise::CellNumbers;
+pub use durer_formula::noise::CellNumbers;
 pub use durer_surfaces::LatheSpline;
 pub use durer_surfaces::Spline as Curve;
 pub use durer_surfaces::algebraic::{MAX_ORDER, coefficient_count, place_of};

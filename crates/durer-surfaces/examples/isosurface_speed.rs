@@ -1,8 +1,9 @@
 //! The time of a ray that meets a formula:
 //! `cargo run --release -p durer-surfaces --example isosurface_speed`.
 
+use durer_formula::Function;
 use durer_formula::{Builder, FormulaError, Op};
-use durer_math::{Function, Point3, Ray, RaySide, Vec3};
+use durer_math::{Point3, Ray, RaySide, Vec3};
 use durer_surfaces::{Any, AxisBox, Closest, Container, Isosurface, LocalRay, Need, Surface, superellipsoid};
 use std::time::Instant;
 

@@ -45,7 +45,7 @@ fn wave() -> Warp {
     let [x, y, z] = [0, 1, 2].map(|i| b.input(i).unwrap());
     let (three, eighth) = (b.constant(3.0).unwrap(), b.constant(0.125).unwrap());
     let three = b.push(Op::Mul(three, x)).unwrap();
-    let sine = b.push(Op::Function(durer_math::Function::Sin, three)).unwrap();
+    let sine = b.push(Op::Function(durer_formula::Function::Sin, three)).unwrap();
     let height = b.push(Op::Mul(eighth, sine)).unwrap();
     let y = b.push(Op::Sub(y, height)).unwrap();
     inverse([x, y, z], &b, 2.0)
@@ -475,8 +475,8 @@ fn formulas_without_an_inverse_are_refused() {
         move |b: &mut Builder, [x, y, z]: [NodeId; 3]| {
             let rate = b.constant(rate).unwrap();
             let a = b.push(Op::Mul(rate, z)).unwrap();
-            let s = b.push(Op::Function(durer_math::Function::Sin, a)).unwrap();
-            let c = b.push(Op::Function(durer_math::Function::Cos, a)).unwrap();
+            let s = b.push(Op::Function(durer_formula::Function::Sin, a)).unwrap();
+            let c = b.push(Op::Function(durer_formula::Function::Cos, a)).unwrap();
             let mut mul = |p, q| b.push(Op::Mul(p, q)).unwrap();
             let (xc, ys, xs, yc) = (mul(x, c), mul(y, s), mul(x, s), mul(y, c));
             [b.push(Op::Sub(xc, ys)).unwrap(), b.push(Op::Add(xs, yc)).unwrap(), z]
@@ -488,7 +488,7 @@ fn formulas_without_an_inverse_are_refused() {
     assert!(matches!(refused(&formula_map(turning(4.0), 1.5)), DeformError::Injective(_)));
     // Jumps, holes and infinite slopes.
     let jumps = formula_map(
-        |b, [x, y, z]| [b.push(Op::Function(durer_math::Function::Floor, x)).unwrap(), y, z],
+        |b, [x, y, z]| [b.push(Op::Function(durer_formula::Function::Floor, x)).unwrap(), y, z],
         1.0,
     );
     assert!(matches!(refused(&jumps), DeformError::Rough(_)));

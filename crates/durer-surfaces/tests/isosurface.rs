@@ -4,8 +4,9 @@
 #[path = "common/formulas.rs"]
 mod formulas;
 
+use durer_formula::Function;
 use durer_formula::{Formula, Op};
-use durer_math::{Function, Point3, Ray, RaySide, Vec3};
+use durer_math::{Point3, Ray, RaySide, Vec3};
 use durer_surfaces::{
     All, AxisBox, Container, Isosurface, LocalPoint, LocalRay, Need, Root, RootKind, Side, Sphere, Surface,
 };

@@ -4,8 +4,9 @@
 #[path = "common/formulas.rs"]
 mod formulas;
 
+use durer_formula::{Comparison, Function, I8};
 use durer_formula::{NodeId, Op, Tape};
-use durer_math::{Comparison, Function, I8, Interval, Point3, Ray, Vec3};
+use durer_math::{Interval, Point3, Ray, Vec3};
 use durer_surfaces::{LocalRay, Need, Root, RootKind, Surface};
 use formulas::{Pen, all, iso};
 

@@ -1,8 +1,8 @@
 //! Surfaces of distances to random points against exact arithmetic: where the nearest point is at the
 //! distance `r`, the surface is that of a union of balls.
 
+use durer_formula::noise::{CellNumbers, Nearest};
 use durer_formula::{Builder, Formula, Op};
-use durer_math::noise::{CellNumbers, Nearest};
 use durer_math::{Dyadic, Point3, Ray, Ring};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
 use durer_testkit::TestRng;

@@ -1,8 +1,8 @@
 //! Surfaces of noise against exact arithmetic: the definition of the noise, written once more in
 //! numbers without rounding.
 
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, Op};
-use durer_math::noise::NoiseTable;
 use durer_math::{Dyadic, Point3, Ray, Ring, Vec3};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, RootKind, Surface};
 use durer_testkit::TestRng;

@@ -15,8 +15,8 @@
 //! The formulas are expanded with the greatest number of octaves allowed. Calls that state their
 //! number drop the others.
 
+use durer_formula::Function;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_math::Function;
 
 /// The number of the function that is plain noise.
 pub(crate) const PLAIN: f64 = 76.0;

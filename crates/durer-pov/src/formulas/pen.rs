@@ -4,8 +4,8 @@
 //!   name = sum; name = sum; ... sum
 //! ```
 
+use durer_formula::Function;
 use durer_formula::{Builder, Formula, NodeId, Op};
-use durer_math::Function;
 use std::f64::consts::PI;
 
 /// Reads one of the table's formulas. These are correct, so no error messages are needed.

@@ -1,7 +1,8 @@
 //! Laws that hold for any text that is read as a scene.
 
+use durer_formula::I8;
 use durer_formula::{Formula, Tape};
-use durer_math::{I8, Interval, Point3, Ray, Vec3};
+use durer_math::{Interval, Point3, Ray, Vec3};
 use durer_pov::{Limits, PovError, Read, ReadOptions};
 use durer_scene::{Lowered, Shape};
 

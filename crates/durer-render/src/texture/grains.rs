@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use durer_math::{F8, Point3, Vec3, noise};
+use durer_formula::noise;
+use durer_math::{F8, Point3, Vec3};
 use durer_scene::LearnedNoise;
 
 /// The shifts of durer's own noise for the second and the third component of vectors.

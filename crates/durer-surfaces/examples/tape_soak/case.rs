@@ -5,9 +5,10 @@
 mod bytes;
 
 use bytes::Bytes;
+use durer_formula::noise::Nearest;
 use durer_formula::{Builder, Formula, NodeId, Op, Tape};
-use durer_math::noise::Nearest;
-use durer_math::{Comparison, Dual, F8, Function, I8, Interval, Number, Point3, Ray, Vec3};
+use durer_formula::{Comparison, Dual, Function, I8, Number};
+use durer_math::{F8, Interval, Point3, Ray, Vec3};
 use durer_surfaces::{All, AxisBox, Container, Isosurface, LocalRay, Need, RootKind, Surface};
 
 impl Bytes<'_> {

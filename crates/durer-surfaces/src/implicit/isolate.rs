@@ -6,8 +6,8 @@
 
 use super::line::{BoundedLine, signs};
 use super::root_isolator::{CertifiedFunction, Found, SignInfo};
+use durer_formula::I8;
 use durer_formula::Tape;
-use durer_math::I8;
 
 /// After this many passes over a tape for one ray the rest counts as unresolved, so the work for a
 /// ray is bounded.

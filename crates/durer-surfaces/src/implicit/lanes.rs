@@ -22,7 +22,8 @@ use super::octree_lookup::Lookup;
 use super::subdivide::{Pieces, boxes};
 use crate::packet::{Ends, ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use durer_formula::Tape;
-use durer_math::{Dual, F8, I8, Isa, M8, U, Vec3};
+use durer_formula::{Dual, I8};
+use durer_math::{F8, Isa, M8, U, Vec3};
 
 impl Isosurface {
     /// The tape that is right at some of eight points, and near them.

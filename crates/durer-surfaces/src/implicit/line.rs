@@ -4,8 +4,9 @@
 use super::root_isolator::{CertifiedFunction, interpolated};
 use crate::CentredRay;
 use durer_formula::Tape;
+use durer_formula::{Dual, I8};
 use durer_math::eft::two_sum;
-use durer_math::{Dual, F8, I8, Point3, U, Vec3};
+use durer_math::{F8, Point3, U, Vec3};
 
 /// Covers underflow.
 const TINY: f64 = durer_math::scale::pow2(-1000);

@@ -43,8 +43,9 @@ use crate::{
     Accelerate, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface,
     SurfacePoint,
 };
+use durer_formula::I8;
 use durer_formula::{Builder, Formula, FormulaError, Op, Powers, Tape};
-use durer_math::{Aabb, Dyadic, F8, I8, Point3};
+use durer_math::{Aabb, Dyadic, F8, Point3};
 use durer_roots::quadratic::Quadratic;
 use octree::{CellLookup, Cells};
 use std::sync::{Arc, OnceLock};

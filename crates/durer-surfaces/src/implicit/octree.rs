@@ -15,7 +15,8 @@
 use super::line::BoundedLine;
 use super::octree_lookup::{Grid, Lookup};
 use durer_formula::Tape;
-use durer_math::{Aabb, Dual, F8, I8, Interval, Number, Point3, Scalar, U};
+use durer_formula::{Dual, I8, Number};
+use durer_math::{Aabb, F8, Interval, Point3, Scalar, U};
 use std::collections::HashMap;
 use std::sync::OnceLock;
 

@@ -5,8 +5,9 @@ use super::Isosurface;
 use super::line::BoundedLine;
 use crate::point::least_step;
 use crate::{LocalRay, Need, Root, SurfacePoint};
+use durer_formula::{Dual, I8};
 use durer_formula::{Tape, seed};
-use durer_math::{Dual, I8, Interval, Point3, U, Vec3};
+use durer_math::{Interval, Point3, U, Vec3};
 
 /// A point next to the surface.
 pub(super) struct Foot {

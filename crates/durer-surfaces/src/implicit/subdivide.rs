@@ -14,7 +14,8 @@
 
 use crate::packet::{Line8, Segment8};
 use durer_formula::Tape;
-use durer_math::{Dual, F8, I8, M8, U, Vec3};
+use durer_formula::{Dual, I8};
+use durer_math::{F8, M8, U, Vec3};
 
 /// A point of each line within an error, or a stretch of it, as boxes.
 #[inline(always)]

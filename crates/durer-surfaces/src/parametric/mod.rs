@@ -124,7 +124,8 @@ impl From<Refused> for ParametricError {
 /// container. An open surface; its stored normal is `S_u x S_v`. A root's tag is `(u, v)`.
 ///
 /// ```
-/// use durer_math::{Function, Point3, Ray, Vec3};
+/// use durer_formula::Function;
+/// use durer_math::{Point3, Ray, Vec3};
 /// use durer_formula::{Builder, Op};
 /// use durer_surfaces::{Closest, LocalRay, Parametric, Surface};
 /// // A cylinder: x = cos u, y = v, z = sin u.

@@ -9,9 +9,10 @@
 //! (the mean value form: R. E. Moore, *Interval Analysis*, 1966). `S(m)` and `S'(X)` are all that a
 //! ray needs: sheared onto it they are the value and the slopes of Krawczyk's test.
 
+use durer_formula::I8;
 use durer_formula::{VectorTape, lanes};
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{I8, Interval, U, Vec3};
+use durer_math::{Interval, U, Vec3};
 
 /// How far beyond a box its slopes hold, in widths of the box.
 const MARGIN: f64 = 1.0 / 16.0;

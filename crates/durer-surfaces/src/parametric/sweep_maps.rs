@@ -4,8 +4,9 @@
 use super::path::{PathSpline, Span};
 use super::piece::Face;
 use crate::prism::curved::Bezier;
+use durer_formula::Function;
 use durer_formula::{Builder, FormulaError, NodeId, Op, VectorTape};
-use durer_math::{Function, Vec3};
+use durer_math::Vec3;
 
 /// The maps of the walls and caps of a sweep: what all of them have in common.
 pub(super) struct Maps {

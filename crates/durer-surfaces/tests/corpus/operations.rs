@@ -9,7 +9,8 @@ use astro_float::{BigFloat, Consts, RoundingMode};
 use bytes::Bytes;
 use dashu::rational::RBig;
 use durer_formula::{Builder, NodeId, Op, Tape};
-use durer_math::{Function, I8, Interval, Point3};
+use durer_formula::{Function, I8};
+use durer_math::{Interval, Point3};
 use std::cell::RefCell;
 
 /// The precision, in bits, of the oracle for functions that are not rational.

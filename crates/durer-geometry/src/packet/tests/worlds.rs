@@ -3,8 +3,9 @@
 
 use super::point;
 use crate::{Geometry, Hit};
+use durer_formula::Function;
 use durer_formula::{Builder, Op};
-use durer_math::{Affine, Dyadic, Function, Isa, Normal3, Point3, Ray, Vec3};
+use durer_math::{Affine, Dyadic, Isa, Normal3, Point3, Ray, Vec3};
 use durer_surfaces::PREVIEW_WIDTH;
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, Bezier, Blob, BlobComponent, BlobShape,

@@ -159,7 +159,7 @@ const fn near_first() -> [[i32; 3]; 125] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use durer_math::noise::Nearest;
+    use durer_formula::noise::Nearest;
 
     #[test]
     fn every_cell_is_visited_once() {

@@ -19,8 +19,9 @@
 
 use super::{DeformError, Map, Stretch, columns, direction};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
+use durer_formula::Function;
 use durer_formula::{FormulaError, NodeId};
-use durer_math::{Aabb, Affine, Function, Interval, Vec3, elementary};
+use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 
 /// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge,
 /// near -1, is told from it by half of this squared.

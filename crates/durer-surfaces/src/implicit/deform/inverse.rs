@@ -11,8 +11,9 @@
 
 use super::DeformError;
 use crate::implicit::level_set::{LevelSet, boxes, primitives};
+use durer_formula::Dual;
 use durer_formula::{Formula, Tape};
-use durer_math::{Aabb, Dual, Interval, Point3};
+use durer_math::{Aabb, Interval, Point3};
 
 /// Into so many pieces along each axis the box is divided for the bounds of the slopes.
 const PIECES: usize = 16;

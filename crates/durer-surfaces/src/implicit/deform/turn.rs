@@ -11,8 +11,9 @@
 
 use super::{Map, Stretch};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
+use durer_formula::Function;
 use durer_formula::{FormulaError, NodeId};
-use durer_math::{Function, Interval};
+use durer_math::Interval;
 
 const UNIT: Interval = Interval { lo: 0.0, hi: 1.0 };
 

@@ -1,7 +1,8 @@
 //! Writing formulas much as one does on paper.
 
+use durer_formula::Function;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
-use durer_math::{Affine, Function, Interval, Point3, Vec3};
+use durer_math::{Affine, Interval, Point3, Vec3};
 
 /// A step, or too many of them.
 pub(crate) type Step = Result<NodeId, FormulaError>;

@@ -14,8 +14,9 @@ pub mod primitives;
 
 use super::{Container, Isosurface, IsosurfaceError};
 use crate::AxisBox;
+use durer_formula::I8;
 use durer_formula::{Formula, FormulaError, NodeId, Tape};
-use durer_math::{Aabb, Affine, F8, I8, Vec3};
+use durer_math::{Aabb, Affine, F8, Vec3};
 use expr::ExprBuilder;
 
 /// By so much of its size the container of a level set is larger than what it holds on each side:

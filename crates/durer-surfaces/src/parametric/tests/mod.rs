@@ -7,9 +7,10 @@ mod sweeps;
 use super::*;
 use crate::laws::{TestRng, TestSurface, all_roots, dice, drawn, report};
 use crate::{All, Axis, AxisBox, BezierPatch, CappedCylinder, RootKind, Sphere, Torus};
+use durer_formula::Function;
 use durer_formula::{Builder, NodeId, Op};
 use durer_math::U;
-use durer_math::{Function, Point3, Ray, Vec3};
+use durer_math::{Point3, Ray, Vec3};
 
 const PI: f64 = core::f64::consts::PI;
 

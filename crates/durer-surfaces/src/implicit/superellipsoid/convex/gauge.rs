@@ -23,7 +23,7 @@
 //! So parts within `ε` of themselves have a dual norm of at most `1 + ε`, and
 //! `G(y) >= n.y / (1 + ε)` for them.
 
-use durer_math::lane_logs::{exp2, log2};
+use durer_formula::lane_logs::{exp2, log2};
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, U, Vec3, elementary};
 

@@ -1,7 +1,8 @@
 //! Powers of eight intervals contain the exact powers of their numbers, whatever their signs and
 //! sizes, and are narrow.
 
-use durer_math::{Dyadic, F8, I8, Interval, Number, Ring};
+use durer_formula::{I8, Number};
+use durer_math::{Dyadic, F8, Interval, Ring};
 use durer_testkit::TestRng;
 
 /// Numbers of either sign, from 2^-40 to 2^40, sometimes zero or so small or large that powers

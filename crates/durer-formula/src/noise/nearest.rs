@@ -11,10 +11,11 @@
 //! holds all difference quotients (F. H. Clarke, *Optimization and Nonsmooth Analysis*, 1983).
 
 use super::cell_numbers::CellNumbers;
-use crate::lanes::set_bits;
-use crate::rounding::sub_down;
-use crate::{F8, I8, Interval, Isa, U};
+use crate::I8;
 use arrayvec::ArrayVec;
+use durer_math::lanes::set_bits;
+use durer_math::rounding::sub_down;
+use durer_math::{F8, Interval, Isa, U};
 use std::sync::{Mutex, PoisonError};
 
 /// How distances are measured, and which of them is wanted. Those of formulas are shared and live as
@@ -296,7 +297,7 @@ fn keep_least(least: &mut [f64; 3], x: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dyadic;
+    use durer_math::Dyadic;
 
     const KINDS: [(f64, f64); 5] = [(2.0, 0.0), (2.0, 0.3), (1.0, 0.0), (2.5, -0.7), (6.0, 0.0)];
 

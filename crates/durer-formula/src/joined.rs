@@ -2,7 +2,8 @@
 //! so that there is no jump.
 
 use crate::number::Slopes;
-use crate::{Dual, F8, I8, Number, Sloped};
+use crate::{Dual, I8, Number, Sloped};
+use durer_math::F8;
 
 /// Number types with a continuous choice.
 pub trait Joined {

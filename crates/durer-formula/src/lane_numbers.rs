@@ -6,7 +6,8 @@
 
 use crate::noise::{Nearest, NoiseTable};
 use crate::number::{Comparison, Function, Number, Sloped};
-use crate::{F8, Interval, M8, lane_angles, lane_powers, lane_waves, noise};
+use crate::{lane_angles, lane_powers, lane_waves, noise};
+use durer_math::{F8, Interval, M8};
 
 const NAN: F8 = F8::splat(f64::NAN);
 
@@ -208,7 +209,7 @@ mod tests {
     fn agree(lane: f64, single: f64) -> bool {
         lane == single
             || lane.is_nan() && single.is_nan()
-            || (lane - single).abs() <= 64.0 * crate::U * single.abs().max(crate::U)
+            || (lane - single).abs() <= 64.0 * durer_math::U * single.abs().max(durer_math::U)
     }
 
     #[test]

@@ -7,16 +7,17 @@
 //! which is `10 U` of itself. Each subtraction from `pi/2` or `pi` rounds once more, and its result
 //! is larger. The sum is below [`ANGLE_ERROR`].
 
-use crate::{F8, I8, Isa, M8, U};
+use crate::I8;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use durer_math::{F8, Isa, M8, U};
 
 /// Bound on an angle's error, relative to the angle: equal to that of the scalar functions.
 const ANGLE_ERROR: f64 = 16.0 * U;
 /// Pays for results below the normal range.
-const TINY: f64 = crate::scale::pow2(-1000);
+const TINY: f64 = durer_math::scale::pow2(-1000);
 /// Points whose larger coordinate is beyond this, or below its inverse, are left to the scalar
 /// functions.
-const FAR: f64 = crate::scale::pow2(500);
+const FAR: f64 = durer_math::scale::pow2(500);
 /// `tan(pi/8)`, about.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 

@@ -5,14 +5,15 @@
 //! use in computing: R. E. Wengert, "A simple automatic derivative evaluation program",
 //! Communications of the ACM 7 (1964).
 
-use crate::Scalar;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use durer_math::Scalar;
 
 /// `v + d eps` with `eps^2 = 0`; or, with a [`Gradient`](crate::Gradient),
 /// `v + d_1 eps_1 + d_2 eps_2 + d_3 eps_3`, where all `eps_i eps_j = 0`.
 ///
 /// ```
-/// use durer_math::{Dual, Interval, Scalar};
+/// use durer_formula::Dual;
+/// use durer_math::{Interval, Scalar};
 /// let x = Dual::variable(3.0);
 /// assert_eq!(x * x * x, Dual { v: 27.0, d: 27.0 }); // x^3 and 3 x^2
 /// let x = Dual::variable(Interval::new(1.0, 2.0));

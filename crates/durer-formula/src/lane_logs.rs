@@ -20,7 +20,7 @@
 //! most 1/2, and of `u |p| / 2 + u` from its own rounding. That makes `(2.6 |p| + 4) u` of the
 //! power; the stated bound is [`power_error`].
 
-use crate::{F8, U};
+use durer_math::{F8, U};
 
 /// Bound on the error of [`log2`], relative to the logarithm.
 pub const LOG2_ERROR: f64 = 8.0 * U;

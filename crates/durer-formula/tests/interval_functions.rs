@@ -1,12 +1,14 @@
 //! Intervals of elementary functions against multi-precision values, and the errors of the f64
 //! functions.
 
+#[path = "../../durer-math/tests/common/mod.rs"]
 mod common;
 
 use astro_float::{BigFloat, Consts, RoundingMode};
 use common::{above, below, number, rat, wild};
+use durer_formula::{Dual, Function, I8, Number};
 use durer_math::interval::elementary::{Defined, Range, ULPS};
-use durer_math::{Dual, F8, Function, I8, Interval, Number, elementary};
+use durer_math::{F8, Interval, elementary};
 use durer_testkit::TestRng;
 use proptest::prelude::*;
 
@@ -270,12 +272,12 @@ fn lanes_hold_the_values_of_points() {
         }
         check("select", &I8::select(&a, &b, &c, &a), &|x, y, z| f64::select(&x, &y, &z, &x));
         for comparison in [
-            durer_math::Comparison::Less,
-            durer_math::Comparison::LessEqual,
-            durer_math::Comparison::Equal,
-            durer_math::Comparison::NotEqual,
-            durer_math::Comparison::And,
-            durer_math::Comparison::Or,
+            durer_formula::Comparison::Less,
+            durer_formula::Comparison::LessEqual,
+            durer_formula::Comparison::Equal,
+            durer_formula::Comparison::NotEqual,
+            durer_formula::Comparison::And,
+            durer_formula::Comparison::Or,
         ] {
             check("compare", &I8::compare(comparison, &a, &b), &|x, y, _| f64::compare(comparison, &x, &y));
         }

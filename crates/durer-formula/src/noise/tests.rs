@@ -2,7 +2,8 @@
 
 use super::bounds::{BEND, CORNER, SLOPE, TWIST};
 use super::*;
-use crate::{Dyadic, I8, Interval, Ring};
+use crate::I8;
+use durer_math::{Dyadic, Interval, Ring};
 use durer_testkit::TestRng;
 
 /// A table with values and slopes up to 0.7 and 1.3.
@@ -98,7 +99,7 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
         let told = [v, d[0], d[1], d[2]];
         for (told, exact) in told.iter().zip(exact(table, p)) {
             let e = size(table)
-                * crate::U
+                * durer_math::U
                 * f64::from(if *told == v { VALUE_ROUNDINGS } else { SLOPE_ROUNDINGS });
             // The true error is at most a quarter of the bound.
             let (lo, hi) = (told.0[0] - e / 4.0, told.0[0] + e / 4.0);
@@ -256,7 +257,7 @@ fn values_and_slopes_go_on_from_cell_to_cell() {
         let ((a, da), (b, db)) = (at(p[axis].next_down()), at(p[axis].next_up()));
         let apart = p[axis].next_up() - p[axis].next_down();
         let size = size(table);
-        let error = |roundings| 2.0 * crate::U * size * f64::from(roundings);
+        let error = |roundings| 2.0 * durer_math::U * size * f64::from(roundings);
         assert!((a.0[0] - b.0[0]).abs() <= error(VALUE_ROUNDINGS) + SLOPE * size * apart);
         for (da, db) in da.iter().zip(&db) {
             assert!((da.0[0] - db.0[0]).abs() <= error(SLOPE_ROUNDINGS) + BEND * size * apart);

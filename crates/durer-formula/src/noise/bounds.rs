@@ -37,8 +37,9 @@
 //! treated as small ones.
 
 use super::{Along, Lattice, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell};
-use crate::real::{Eight, Real, less, more, roundings};
-use crate::{F8, I8, Isa, M8};
+use crate::I8;
+use durer_math::real::{Eight, Real, less, more, roundings};
+use durer_math::{F8, Isa, M8};
 
 /// Errors count twice in bounds, so that these also hold for rounded values; the rest is for the
 /// bounds' own rounding.
@@ -212,7 +213,7 @@ fn beside<L: Lattice>(lattice: L, parts: &[Parts; 3], two: &[M8; 3], held: &mut 
     let (mut of, mut count) = ([0; 8], 0);
     for which in 1..8_u8 {
         let needs = |axis: u8, lanes: u8| if which >> axis & 1 == 1 { lanes } else { 0xff };
-        for i in crate::lanes::set_bits(needs(0, x) & needs(1, y) & needs(2, z)) {
+        for i in durer_math::lanes::set_bits(needs(0, x) & needs(1, y) & needs(2, z)) {
             for axis in 0..3 {
                 let (corner, lo, hi) = parts[axis].part(i, which >> axis & 1 == 1, L::STEP[axis]);
                 let part = &mut eight[axis];

@@ -5,16 +5,17 @@
 //! may be negative or zero, exponents of either sign or very large) go lane by lane to
 //! [`Interval::pow`].
 
+use crate::I8;
 use crate::lane_logs::{MOST_POWER, power, power_error};
-use crate::{F8, I8, Isa, M8, U};
+use durer_math::{F8, Isa, M8, U};
 
 /// The greatest magnitude of the power's binary exponent that is computed; beyond, bounds are zero,
 /// infinite, or powers of two near the limit.
 const FAR: f64 = 1000.0;
 /// A smaller base is replaced by this where a bound may be too large.
-const LEAST: f64 = crate::scale::pow2(-1000);
+const LEAST: f64 = durer_math::scale::pow2(-1000);
 /// Pays for results below the normal range.
-const TINY: f64 = crate::scale::pow2(-1000);
+const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// Bounds on powers, and the lanes that are computed.
 #[inline(always)]
@@ -37,10 +38,11 @@ fn corners(a: &I8, b: &I8) -> (F8, F8, M8) {
     let hi = high + (high * error(most) + slack);
     // Exponents beyond the limit, and bases below theirs.
     let lo = (t_low.le(-far) | from.lt(small))
-        .select(zero, t_low.ge(far).select(F8::splat(crate::scale::pow2(999)), lo));
-    let hi = t_high
-        .ge(far)
-        .select(F8::splat(f64::INFINITY), t_high.le(-far).select(F8::splat(crate::scale::pow2(-999)), hi));
+        .select(zero, t_low.ge(far).select(F8::splat(durer_math::scale::pow2(999)), lo));
+    let hi = t_high.ge(far).select(
+        F8::splat(f64::INFINITY),
+        t_high.le(-far).select(F8::splat(durer_math::scale::pow2(-999)), hi),
+    );
     let nothing = to.equals(zero) & rises;
     (lo, nothing.select(zero, hi), known)
 }

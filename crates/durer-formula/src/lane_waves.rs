@@ -8,16 +8,17 @@
 //! `1e-19`, and Horner's scheme rounds to less than `4 u` of the value. The stated bounds are
 //! [`RELATIVE`] and [`ABSOLUTE`], twice as much at least.
 
-use crate::{F8, I8, M8};
+use crate::I8;
+use durer_math::{F8, M8};
 
 /// The largest argument that is reduced; beyond, the bounds are -1 and 1.
 const FAR: f64 = (1u64 << 20) as f64;
 /// Bound on the error, relative to the value: `8 u`.
-const RELATIVE: f64 = 8.0 * crate::U;
+const RELATIVE: f64 = 8.0 * durer_math::U;
 /// Bound on the error of the argument's reduction, if there is one.
-const ABSOLUTE: f64 = 2.0 * crate::U;
+const ABSOLUTE: f64 = 2.0 * durer_math::U;
 /// Pays for results below the normal range.
-const TINY: f64 = crate::scale::pow2(-1000);
+const TINY: f64 = durer_math::scale::pow2(-1000);
 /// A quarter turn: the first 25 bits, the next 24, and the rest.
 const PARTS: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5000_0000),

@@ -9,22 +9,23 @@
 //! branch-free, as vector instructions need it. Sines and cosines are computed in lanes too
 //! (`lane_waves.rs`), the other elementary functions are those of [`Interval`], lane by lane.
 
-use crate::interval::elementary::{Defined, Range};
 use crate::lane_waves::{wave, waves};
+use crate::noise;
 use crate::noise::{Nearest, NoiseTable};
 use crate::number::{Comparison, Function, Number, Sloped};
-use crate::{F8, Interval, M8, noise};
+use durer_math::interval::elementary::{Defined, Range};
+use durer_math::{F8, Interval, M8};
 
 /// The number of intervals.
-const LANES: usize = crate::lanes::LANES;
+const LANES: usize = durer_math::lanes::LANES;
 /// `u (1 + 2 u)`.
-const PHI: f64 = crate::U * (1.0 + f64::EPSILON);
+const PHI: f64 = durer_math::U * (1.0 + f64::EPSILON);
 /// Pays for results below the normal range, and is a normal number itself.
-const TINY: f64 = crate::scale::pow2(-1000);
+const TINY: f64 = durer_math::scale::pow2(-1000);
 /// All integers below this are f64 numbers: a result that rounds to less is exact.
-const ALL_WHOLE: f64 = crate::scale::pow2(53);
+const ALL_WHOLE: f64 = durer_math::scale::pow2(53);
 /// For dividends from here on, no remainder underflows.
-const LARGE_ENOUGH: f64 = crate::scale::pow2(-900);
+const LARGE_ENOUGH: f64 = durer_math::scale::pow2(-900);
 
 /// Eight intervals. No end is NaN, no lower end is `inf`, no upper end `-inf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -498,7 +499,7 @@ impl Sloped for I8 {
 #[cold]
 #[inline(never)]
 fn holes(inverse: &mut I8, b: &I8, lanes: u8) {
-    for i in crate::lanes::set_bits(lanes) {
+    for i in durer_math::lanes::set_bits(lanes) {
         let (lo, hi) = (b.lo.0[i], b.hi.0[i]);
         if lo == 0.0 && hi == 0.0 {
             inverse.empty |= 1 << i;
@@ -585,7 +586,7 @@ fn pow(a: &I8, b: &I8) -> I8 {
 #[inline(always)]
 fn or_by_itself(a: &I8, b: &I8, (out, left): (I8, u8), f: impl Fn(Interval, Interval) -> Range) -> I8 {
     let mut out = out.said(a, b);
-    for i in crate::lanes::set_bits(left & !out.empty) {
+    for i in durer_math::lanes::set_bits(left & !out.empty) {
         let (range, defined) = f(a.lane(i), b.lane(i));
         out.put(i, range, defined);
     }

@@ -1,8 +1,8 @@
 //! Noise whose values and slopes are in a table.
 
 use super::{Grain, Lattice, Sum, number};
-use crate::real::Eight;
-use crate::scale::pow2;
+use durer_math::real::Eight;
+use durer_math::scale::pow2;
 use std::sync::Mutex;
 
 /// How many cells along an axis differ; further ones repeat them.

@@ -6,7 +6,8 @@
 //! formulas; every type with these operations can evaluate all of them.
 
 use crate::noise::{Nearest, NoiseTable};
-use crate::{Dual, F8, Interval, Joined, elementary, noise};
+use crate::{Dual, Joined, noise};
+use durer_math::{F8, Interval, elementary};
 
 /// The number types on which formulas are evaluated. Operations take references: the types may be
 /// large.

@@ -37,8 +37,9 @@ pub use cell_numbers::CellNumbers;
 pub use nearest::Nearest;
 pub use table::NoiseTable;
 
-use crate::real::{Eight, Real, real};
-use crate::{F8, I8, Isa};
+use crate::I8;
+use durer_math::real::{Eight, Real, real};
+use durer_math::{F8, Isa};
 
 /// Bound on the rounding errors of a value, in roundings of 1.
 const VALUE_ROUNDINGS: f32 = 80.0;
