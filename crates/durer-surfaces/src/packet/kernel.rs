@@ -14,7 +14,7 @@ use super::rays::{From8, Nearest, RayLanes};
 use super::sink::First;
 use super::skin::{Skin, Slant};
 use crate::quadric::form::Form;
-use core::any::Any;
+use core::any::{Any, TypeId};
 use core::fmt::Debug;
 use durer_math::{Dd, EFloat, F8, Isa, Point3, Vec3};
 use std::sync::Arc;
@@ -94,11 +94,7 @@ pub(crate) trait PacketKernel: Debug + Send + Sync {
     fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin);
 
     /// `f` and half its gradient, rounded, near a face.
-    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
-        let mut skin = Skin::NONE;
-        self.skin(isa, own, at, &mut skin);
-        *to = Slant { f: skin.f, half: skin.half };
-    }
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant);
 
     /// Replaces points by covectors for shading there. Returns false if these are the surface's
     /// own.
@@ -121,21 +117,33 @@ pub(super) struct Detail {
     pub(super) kernel: Arc<dyn PacketKernel>,
 }
 
-/// Working memory of kernels: one value of each type that a kernel has asked for.
+/// Working memory of kernels: one value of each type that a kernel has asked for, the last one in
+/// front.
 #[derive(Debug, Default)]
-pub(crate) struct KernelScratch(Vec<Box<dyn Any + Send + Sync>>);
+pub(crate) struct KernelScratch(Vec<(TypeId, Box<dyn Any + Send + Sync>)>);
 
 impl KernelScratch {
     /// The value of this type. It is kept between calls.
+    #[inline]
     pub(crate) fn of<T: Any + Default + Send + Sync>(&mut self) -> &mut T {
-        let place = self.0.iter().position(|value| value.is::<T>()).unwrap_or_else(|| {
-            self.0.push(Box::new(T::default()));
+        let id = TypeId::of::<T>();
+        if self.0.first().is_none_or(|(front, _)| *front != id) {
+            self.bring_to_front(id, || Box::new(T::default()));
+        }
+        match self.0[0].1.downcast_mut() {
+            Some(value) => value,
+            None => unreachable!("the value in front has this type"),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn bring_to_front(&mut self, id: TypeId, new: fn() -> Box<dyn Any + Send + Sync>) {
+        let place = self.0.iter().position(|(other, _)| *other == id).unwrap_or_else(|| {
+            self.0.push((id, new()));
             self.0.len() - 1
         });
-        match self.0[place].downcast_mut() {
-            Some(value) => value,
-            None => unreachable!("`place` holds a value of this type"),
-        }
+        self.0.swap(0, place);
     }
 }
 

@@ -20,6 +20,14 @@ pub(crate) struct Skin {
     pub(crate) room: F8,
 }
 
+impl Slant {
+    /// The value and half the gradient of a skin. Where it is inlined the rest is not computed.
+    #[inline(always)]
+    pub(crate) fn of(skin: &Skin) -> Self {
+        Self { f: skin.f, half: skin.half }
+    }
+}
+
 impl Skin {
     /// Zeros.
     pub(crate) const NONE: Self = Self {

@@ -25,7 +25,7 @@ use crate::packet::crossings::Crossings;
 use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
 use crate::packet::local_frame::{Own, largest};
 use crate::packet::rays::{NEVER, Nearest, SLACK};
-use crate::packet::skin::Skin;
+use crate::packet::skin::{Skin, Slant};
 use durer_math::{F8, Isa, U, Vec3};
 use std::sync::Arc;
 
@@ -191,6 +191,13 @@ impl<const N: usize> PacketKernel for Terms<N> {
         isa.run_in_lanes(
             #[inline(always)]
             || *to = self.points(own, at.h, at.h1),
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = Slant::of(&self.points(own, at.h, at.h1)),
         );
     }
 }

@@ -19,7 +19,7 @@ use crate::packet::crossings::Crossings;
 use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
 use crate::packet::local_frame::{Own, dot, largest};
 use crate::packet::rays::{NEVER, Nearest, SLACK};
-use crate::packet::skin::Skin;
+use crate::packet::skin::{Skin, Slant};
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, U, Vec3};
 
@@ -175,6 +175,13 @@ impl PacketKernel for Fields {
         isa.run_in_lanes(
             #[inline(always)]
             || *to = self.points(own, at.h, at.h1),
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = Slant::of(&self.points(own, at.h, at.h1)),
         );
     }
 }

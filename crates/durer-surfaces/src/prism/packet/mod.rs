@@ -34,7 +34,7 @@ use crate::packet::local_frame::Own;
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
 use crate::packet::rays::{NEVER, Nearest, RayLanes, SLACK};
-use crate::packet::skin::Skin;
+use crate::packet::skin::{Skin, Slant};
 use durer_math::Isa;
 use durer_math::{F8, M8, U, Vec3};
 
@@ -268,6 +268,13 @@ impl PacketKernel for Swept {
         isa.run_in_lanes(
             #[inline(always)]
             || *to = self.points(own, (face, tag), h, h1),
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, &FacePoints { face, tag, h, h1 }: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = Slant::of(&self.points(own, (face, tag), h, h1)),
         );
     }
 }

@@ -29,7 +29,7 @@ use crate::packet::crossings::Crossings;
 use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
 use crate::packet::local_frame::Own;
 use crate::packet::rays::{NEVER, Nearest};
-use crate::packet::skin::Skin;
+use crate::packet::skin::{Skin, Slant};
 use durer_math::{F8, Isa, U, Vec3};
 
 /// A wall between two heights.
@@ -191,6 +191,13 @@ impl PacketKernel for RevolutionKernel {
         isa.run_in_lanes(
             #[inline(always)]
             || *to = self.points(own, at.face, at.h, at.h1),
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = Slant::of(&self.points(own, at.face, at.h, at.h1)),
         );
     }
 }
