@@ -127,6 +127,7 @@ pub use crate::quadric::axial::{Axial, AxialError};
 pub use crate::quadric::cone::Cone;
 pub use crate::quadric::cylinder::{EllipticCylinder, HyperbolicCylinder, ParabolicCylinder};
 pub use crate::quadric::ellipsoid::Ellipsoid;
+pub use crate::quadric::extent::QuadricExtent;
 pub use crate::quadric::general::{Quadric, QuadricError, QuadricKind};
 pub use crate::quadric::hyperboloid::{HyperboloidOfOneSheet, HyperboloidOfTwoSheets};
 pub use crate::quadric::paraboloid::{EllipticParaboloid, HyperbolicParaboloid};

@@ -10,7 +10,7 @@ use crate::ids::EVERYTHING;
 use crate::{BuildError, Builder, Geometry, LeafId, ObjectId, PrimitiveId};
 use durer_bvh::Leaf;
 use durer_math::Aabb;
-use durer_surfaces::{Accelerate, LocalPoint, Side, Solidity};
+use durer_surfaces::{Accelerate, LocalPoint, PartId, Side, Solidity};
 
 /// Unions, intersections and differences of solids as one solid: for [`Builder::add_compound`].
 ///
@@ -134,7 +134,12 @@ impl CompoundBuilder {
         let is_endless = sense == Sense::Sign && !bounds.is_bounded() && !bounds.is_empty();
         self.traits.push(Traits { sense, shown, is_endless });
         let (inner, half_space) = (solid.inner_bounds(), solid.half_space());
-        self.extents.push(Extent { bounds, inner, half_space });
+        let quadric = if is_endless && half_space.is_none() {
+            solid.packet_filter(PartId(0)).quadric_extent()
+        } else {
+            None
+        };
+        self.extents.push(Extent { bounds, inner, half_space, quadric });
         self.primitives = self.primitives.max(primitive.saturating_add(parts.max(1)));
         self.leaves.add_as(solid, ObjectId(leaf), PrimitiveId(primitive), EVERYTHING);
         Ok(self.part(Expr::Leaf(leaf)))

@@ -7,7 +7,7 @@
 //! unions ... is flat.
 
 use durer_math::Aabb;
-use durer_surfaces::HalfSpace;
+use durer_surfaces::{HalfSpace, QuadricExtent};
 
 /// An expression under construction.
 #[derive(Debug)]
@@ -58,6 +58,8 @@ pub(crate) struct Extent {
     pub(crate) inner: Aabb,
     /// The leaf itself, if it is a half-space.
     pub(crate) half_space: Option<HalfSpace>,
+    /// The leaf itself, if it is an unbounded quadric.
+    pub(crate) quadric: Option<QuadricExtent>,
 }
 
 /// The position of a leaf in the tree.
@@ -202,9 +204,11 @@ impl Tree {
             let is_intersection = self.nodes[node as usize].rule == Rule::All;
             *b = if is_intersection { cut(*b, part) } else { b.union(part) };
         };
-        // For each intersection: boxes inside the leaves that it subtracts, and its half-spaces.
+        // For each intersection: boxes inside the leaves that it subtracts, its half-spaces, and its
+        // unbounded quadrics.
         let mut taken_away = vec![Vec::new(); self.nodes.len()];
         let mut faces = vec![Vec::new(); self.nodes.len()];
+        let mut quadrics = vec![Vec::new(); self.nodes.len()];
         for (place, leaf) in self.places.iter().zip(leaves).filter(|(place, _)| place.node != NONE) {
             let node = place.node as usize;
             add(&mut boxes, place.node, if place.inverted { Aabb::UNBOUNDED } else { leaf.bounds });
@@ -214,6 +218,7 @@ impl Tree {
             match (place.inverted, leaf.half_space) {
                 (false, Some(half_space)) => faces[node].push(half_space),
                 (true, Some(half_space)) if with_complements => faces[node].push(half_space.complement()),
+                (false, None) => quadrics[node].extend(leaf.quadric),
                 (true, _) if with_complements && !leaf.inner.is_empty() => taken_away[node].push(leaf.inner),
                 _ => {}
             }
@@ -221,6 +226,9 @@ impl Tree {
         for i in (0..boxes.len()).rev() {
             if !faces[i].is_empty() {
                 boxes[i] = cut(boxes[i], HalfSpace::common_bounds(&faces[i]));
+            }
+            for quadric in &quadrics[i] {
+                boxes[i] = quadric.bounds_within(&boxes[i]);
             }
             boxes[i] = without(boxes[i], &taken_away[i]);
             if i > 0 {
@@ -516,7 +524,7 @@ mod tests {
 
     /// The extent of a leaf of which no more than its bounds are known.
     fn round(bounds: Aabb) -> Extent {
-        Extent { bounds, inner: Aabb::EMPTY, half_space: None }
+        Extent { bounds, inner: Aabb::EMPTY, half_space: None, quadric: None }
     }
 
     #[test]
@@ -525,7 +533,7 @@ mod tests {
             let p = durer_math::Point3::new;
             Aabb::new(p(x[0], y[0], z[0]), p(x[1], y[1], z[1]))
         };
-        let solid = |inner: Aabb| Extent { bounds: inner, inner, half_space: None };
+        let solid = |inner: Aabb| Extent { bounds: inner, inner, half_space: None, quadric: None };
         let exprs = vec![
             Expr::Leaf(0),
             Expr::Leaf(1),
@@ -568,6 +576,7 @@ mod tests {
             bounds: Aabb::UNBOUNDED,
             inner: durer_surfaces::Accelerate::inner_bounds(&p),
             half_space: durer_surfaces::Accelerate::half_space(&p),
+            quadric: None,
         });
         let mut exprs: Vec<Expr> = (0..6).map(Expr::Leaf).collect();
         exprs.push(Expr::All((0..6).collect()));
@@ -584,5 +593,28 @@ mod tests {
         let tree = Tree::new(&exprs, 7, 6);
         assert!(tree.bounds(&half_spaces).is_empty());
         assert_eq!(tree.where_leaves_matter(&half_spaces), [Aabb::UNBOUNDED; 6]);
+    }
+
+    #[test]
+    fn planes_and_a_quadric_bound_an_intersection() {
+        use durer_surfaces::{Accelerate, PartId, Plane, Quadric};
+        let unbounded =
+            |half_space, quadric| Extent { bounds: Aabb::UNBOUNDED, inner: Aabb::EMPTY, half_space, quadric };
+        let plane = |y: f64| Plane::new(durer_math::Vec3::new(0.0, y, 0.0), 1.0).unwrap();
+        // x² - y² + z² = 1, which is √2 wide at y = ±1.
+        let waist = Quadric::new([1.0, -1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]).unwrap();
+        let waist = waist.packet_filter(PartId(0)).quadric_extent();
+        let leaves = [
+            unbounded(plane(1.0).half_space(), None),
+            unbounded(plane(-1.0).half_space(), None),
+            unbounded(None, waist),
+        ];
+        let mut exprs: Vec<Expr> = (0..3).map(Expr::Leaf).collect();
+        exprs.push(Expr::All((0..3).collect()));
+        let bounds = Tree::new(&exprs, 3, 3).bounds(&leaves);
+        assert!(bounds.max.x >= 2_f64.sqrt() && bounds.magnitude() < 1.6, "{bounds:?}");
+        // What the solid takes away from the slab is not bounded.
+        exprs.extend([Expr::Not(2), Expr::All(vec![0, 1, 4])]);
+        assert!(!Tree::new(&exprs, 5, 3).bounds(&leaves).is_bounded());
     }
 }

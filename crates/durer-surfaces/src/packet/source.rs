@@ -6,6 +6,7 @@ use super::loops::{Edge, Loops, Off};
 use super::{PacketFilter, QuadricFace8};
 use crate::FillRule;
 use crate::quadric::boolean_faces::QuadricFaces;
+use crate::quadric::extent::QuadricExtent;
 use crate::quadric::form::Form;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, Ring, U, Vec3};
 use std::sync::Arc;
@@ -468,6 +469,14 @@ impl FilterSource {
         }
         let others = (0..self.forms.len()).filter(|&face| face != wall && known(face).is_none());
         Some(others.map(|face| face as u32).collect())
+    }
+
+    /// The extent of the solid if it is a whole quadric.
+    pub fn quadric_extent(&self) -> Option<QuadricExtent> {
+        let [form] = &self.forms[..] else { return None };
+        let is_whole = self.vague.is_none() && self.loops.is_none() && self.holes.is_empty();
+        let is_solid = self.detail.is_none() && !self.turned;
+        (is_whole && is_solid).then(|| QuadricExtent::new(self.centre, form))
     }
 
     /// The packet filter; `None` if its numbers are too large or too small for f64 packets.

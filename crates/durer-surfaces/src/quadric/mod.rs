@@ -8,6 +8,7 @@ pub mod boolean_faces;
 pub mod cone;
 pub mod cylinder;
 pub mod ellipsoid;
+pub mod extent;
 pub mod form;
 pub mod general;
 pub mod hyperboloid;

@@ -1,0 +1,146 @@
+//! How far an unbounded quadric solid reaches between two planes across an axis.
+//!
+//! Let `y` be the coordinate across the planes and `w` the other two. There the solid is
+//!
+//! ```text
+//!   w·M w + 2 p(y)·w + r(y) <= 0,   p(y) = b_w + y q_wy,   r(y) = c + 2 b_y y + q_yy y²
+//! ```
+//!
+//! If `M` is positive definite a section is an ellipse around `-M⁻¹ p`, or empty:
+//!
+//! ```text
+//!   (w + M⁻¹ p)·M (w + M⁻¹ p) <= ρ(y) = p·M⁻¹ p - r,   |w_i + (M⁻¹ p)_i| <= √(ρ (M⁻¹)_ii)
+//! ```
+//!
+//! All of it is computed in intervals, the coefficients with the errors of the maps they have gone
+//! through, and `y` in equal pieces.
+
+use super::form::Form;
+use durer_math::{Aabb, Dd, EFloat, Interval, Point3};
+
+/// The number of pieces of `y`. More pieces make boxes tighter.
+const PIECES: u32 = 8;
+
+/// A quadric solid `f <= 0` as far as its extent between planes is concerned.
+#[derive(Clone, Copy, Debug)]
+pub struct QuadricExtent {
+    /// The point from which coordinates count.
+    centre: Point3,
+    /// The coefficients of `x·Qx + 2 b·x + c`: the rows of `Q`, `b` and `c`.
+    q: [[Interval; 3]; 3],
+    b: [Interval; 3],
+    c: Interval,
+}
+
+impl QuadricExtent {
+    /// The solid where this form about `centre` is not positive.
+    pub(crate) fn new(centre: Point3, form: &Form<EFloat<Dd>>) -> Self {
+        let known = |x: &EFloat<Dd>| Interval { lo: x.lo(), hi: x.hi() };
+        let [xx, yy, zz, xy, xz, yz] = form.q.each_ref().map(known);
+        let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        Self { centre, q, b: form.b.each_ref().map(known), c: known(&form.c) }
+    }
+
+    /// A box that holds the part of the solid in `region`.
+    pub fn bounds_within(&self, region: &Aabb) -> Aabb {
+        let mut found = *region;
+        for axis in 0..3 {
+            if found.is_empty() {
+                return Aabb::EMPTY;
+            }
+            if found.min[axis].is_finite() && found.max[axis].is_finite() {
+                found = self.cut(axis, &found);
+            }
+        }
+        if found.is_empty() { Aabb::EMPTY } else { found }
+    }
+
+    /// The part of `region`, which is bounded along `axis`, that the sections across it reach.
+    fn cut(&self, axis: usize, region: &Aabb) -> Aabb {
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (ii, jj, ij) = (self.q[i][i], self.q[j][j], self.q[i][j]);
+        let det = ii * jj - ij.square();
+        if !(ii.lo > 0.0 && det.lo > 0.0) {
+            return *region;
+        }
+        let (over_i, over_j, over_ij) = (jj / det, ii / det, -ij / det);
+        let (lo, hi) = (region.min[axis], region.max[axis]);
+        let step = (hi - lo) / f64::from(PIECES);
+        let mut all = Aabb::EMPTY;
+        for piece in 0..PIECES {
+            let from = if piece == 0 { lo } else { lo + step * f64::from(piece) };
+            let to = if piece + 1 == PIECES { hi } else { lo + step * f64::from(piece + 1) };
+            let y = Interval { lo: from, hi: to.max(from) } - Interval::from(self.centre[axis]);
+            let twice = Interval::from(2.0);
+            let p = self.b[i] + self.q[i][axis] * y;
+            let s = self.b[j] + self.q[j][axis] * y;
+            let r = self.c + (twice * self.b[axis] + self.q[axis][axis] * y) * y;
+            let room = p.square() * over_i + s.square() * over_j + twice * p * s * over_ij - r;
+            if room.hi < 0.0 {
+                continue;
+            }
+            let reach = |over: Interval| {
+                let most = (Interval { lo: 0.0, hi: room.hi } * over).sqrt();
+                Interval { lo: -most.hi, hi: most.hi }
+            };
+            let at_i = reach(over_i) - (p * over_i + s * over_ij) + Interval::from(self.centre[i]);
+            let at_j = reach(over_j) - (p * over_ij + s * over_j) + Interval::from(self.centre[j]);
+            let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
+            (min[axis], max[axis]) = (from, to);
+            (min[i], max[i]) = (at_i.lo, at_i.hi);
+            (min[j], max[j]) = (at_j.lo, at_j.hi);
+            // An overflow says nothing.
+            if min.iter().chain(&max).any(|x| x.is_nan()) {
+                return *region;
+            }
+            all = all.union(Aabb::new(min.into(), max.into()));
+        }
+        region.intersection(all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Accelerate, LocalPoint, PartId, Placed, Quadric, Side, Surface};
+    use durer_math::Affine;
+    use durer_testkit::TestRng;
+
+    /// A point of the solid in the region is in the box, and boxes of solids with elliptic sections
+    /// are bounded.
+    #[test]
+    fn boxes_hold_the_solid_in_a_slab() {
+        let mut dice = TestRng::new(5);
+        let (mut bounded, mut held) = (0, 0);
+        for _ in 0..400 {
+            let mut number = || dice.integer(-4, 4) * 0.5;
+            let mut coefficients = [0.0; 10].map(|_: f64| number());
+            for mixed in &mut coefficients[3..6] {
+                *mixed *= 0.25;
+            }
+            let Ok(solid) = Quadric::new(coefficients) else { continue };
+            let map = if dice.once_in(2) {
+                Affine::new([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.5]], dice.point(4.0)).unwrap()
+            } else {
+                dice.map()
+            };
+            let placed = Placed::new(solid, map);
+            let Some(extent) = placed.packet_filter(PartId(0)).quadric_extent() else { continue };
+            let axis = dice.index(3);
+            let (mut min, mut max) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
+            (min[axis], max[axis]) = (-3.0, dice.between(-2.0, 3.0));
+            let region = Aabb::new(min.into(), max.into());
+            let found = extent.bounds_within(&region);
+            bounded += usize::from(found.is_bounded());
+            for _ in 0..200 {
+                let mut point = dice.point(10.0);
+                point[axis] = dice.between(min[axis], max[axis]);
+                if placed.side(&LocalPoint::new(point)) == Side::In {
+                    held += 1;
+                    assert!(found.contains(point), "{point:?} is not in {found:?}");
+                }
+            }
+        }
+        assert!(bounded > 50 && held > 5000, "{bounded} {held}");
+    }
+}
