@@ -266,8 +266,13 @@ pub fn closest_is_the_first_of_all(
     Ok(())
 }
 
-/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide: 48, with size over length taken
-/// as a half though it may be 0.29, plus the rounding of `t`.
+/// P8: a bracket is at most 96 ulp of `max(|t|, size / |d|)` wide, where a bounded surface's size is
+/// its reach from the middle of its bounds.
+///
+/// In a kernel's frame the reach is in `[1, 2)` and `|d|` in `[1, 2√3)`. Solvers end where a bracket
+/// is at most `48 U max(|t|, |s|, 1/2)` wide, and `U |t|` is less than an ulp. A crossing is no
+/// farther from the point at `s = 0` than the reach, so `|s| <= reach / |d|`; and `24 U` is at most
+/// `24 · 2√3 U < 84 U` of `reach / |d|`. The rest is for the outward roundings of `t`.
 pub fn brackets_are_narrow(
     surface: &dyn TestSurface,
     oracle: &dyn Oracle,

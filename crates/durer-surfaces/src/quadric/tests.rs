@@ -71,10 +71,13 @@ fn each_way<W: Wall>(
         sum.grazing += t.grazing;
         sum.widths.extend(t.widths);
     };
+    let (solid, open) = (whole.between(from, to).unwrap(), whole.open_between(from, to).unwrap());
+    // A piece may be wider than the axes.
+    let reach = solid.bounds().reach_from(Point3::new(0.0, 0.0, 0.5 * (from + to)));
     let pieces = [
         (whole.clone(), canonical(wall, None, false, size, false)),
-        (whole.between(from, to).unwrap(), canonical(wall, Some(ends), false, size, convex)),
-        (whole.open_between(from, to).unwrap(), canonical(wall, Some(ends), true, size, false)),
+        (solid, canonical(wall, Some(ends), false, reach, convex)),
+        (open, canonical(wall, Some(ends), true, reach, false)),
     ];
     for (i, (piece, oracle)) in pieces.into_iter().enumerate() {
         add(check_many(&piece, &oracle, &at, seed + i as u64, 150));
