@@ -124,9 +124,15 @@ fn triangles_that_moved_are_met_where_they_are() {
         tree.refit(|_, slot| around(is(slot)), &[Some(&is)]).unwrap();
         tree.validate(|_, slot| around(is(slot))).unwrap();
         let mut met = 0;
-        for _ in 0..3000 {
+        for i in 0..3000 {
             let origin = Point3::from([0, 1, 2].map(|_| 2.0 * size * (dice.unit() - 0.5)));
-            let direction = Vec3::from([0, 1, 2].map(|_| dice.unit() - 0.5));
+            // Half of the rays aim at a triangle.
+            let direction = if i % 2 == 0 {
+                let [a, b, c] = dice.pick(&new);
+                a.lerp(b.lerp(c, 0.5), 0.5) - origin
+            } else {
+                Vec3::from([0, 1, 2].map(|_| dice.unit() - 0.5))
+            };
             let ray = Ray::new(origin, direction);
             let expected = meet(&new, 0..count as u32, &LocalRay::new(&ray));
             assert_eq!(closest(&tree, order, &new, &ray), expected);
