@@ -172,9 +172,8 @@ impl<'w> Lamps<'w> {
         counts: &mut RayCounts,
     ) {
         let full: Vec<Rgb8> = self.shadows.light().to_vec();
-        let (rays, targets) = self.shadows.rays_mut();
+        let (rays, _) = self.shadows.rays_mut();
         let needed: Vec<M8> = rays.iter().map(|rays| rays.live).collect();
-        let middles: Vec<Point3<F8>> = targets.to_vec();
         // The light of one point of the area in its shadows.
         let mut shaded = |lamps: &mut Self, number: usize, needed: &[M8]| {
             lamps.shadows.light_mut().copy_from_slice(&full);
@@ -184,7 +183,9 @@ impl<'w> Lamps<'w> {
                 if !rays.live.any() {
                     continue;
                 }
-                *target = middles[i] + area.offset(number, lamps.falling[i].at.to_light);
+                let (to, blockable) =
+                    lamp.target((area, number), spots[i].hits.p, lamps.falling[i].at.to_light);
+                (*target, rays.live) = (to, rays.live & blockable);
                 let (origin, back) = spots[i].hits.start_towards(*target - spots[i].hits.p);
                 (rays.origin, rays.direction) = (origin, *target - origin);
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));

@@ -17,6 +17,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct RenderLight {
     location: Point3,
+    /// The point it is aimed at.
+    point_at: Point3,
     pub(crate) colour: Rgb,
     /// The unit vector from the location to the point it is aimed at.
     axis: Vec3,
@@ -115,6 +117,7 @@ impl RenderLight {
         };
         Ok(Some(Self {
             location: light.location,
+            point_at: light.point_at,
             colour: light.colour,
             axis: unit(way),
             beam,
@@ -148,20 +151,54 @@ impl RenderLight {
     /// The light at some points, without shadows.
     #[inline(always)]
     pub(crate) fn at(&self, p: Point3<F8>, live: M8) -> Beamed {
-        self.at_from(Vec3::<F8>::splat(self.location.to_vec()), p, live)
+        let (location, axis) = (self.location.to_vec(), self.axis);
+        self.at_from(Vec3::<F8>::splat(location), Vec3::<F8>::splat(axis), p, live)
     }
 
     /// The light of one point of its area at some points, without shadows.
     pub(crate) fn at_from_point(&self, area: &Area, number: usize, p: Point3<F8>, live: M8) -> Beamed {
-        let middle = Vec3::<F8>::splat(self.location.to_vec());
-        let offset = area.offset(number, self.at(p, live).to_light);
-        self.at_from(middle + offset, p, live)
+        let (location, axis) = self.point_of(area, number, self.at(p, live).to_light);
+        self.at_from(location, axis, p, live)
     }
 
-    /// The light at some points, from some locations.
+    /// The end of shadow rays from some points to one point of its area, and the points whose way to
+    /// it can be blocked.
     #[inline(always)]
-    fn at_from(&self, location: Vec3<F8>, p: Point3<F8>, live: M8) -> Beamed {
+    pub(crate) fn target(
+        &self,
+        (area, number): (&Area, usize),
+        p: Point3<F8>,
+        to_light: Vec3<F8>,
+    ) -> (Point3<F8>, M8) {
+        let (location, axis) = self.point_of(area, number, to_light);
+        if !self.parallel {
+            return (location.to_point(), M8::ALL);
+        }
+        let depth = dot(p.to_vec() - location, axis);
+        ((p.to_vec() - axis * depth).to_point(), (F8::ZERO).lt(depth))
+    }
+
+    /// The location and axis of one point of its area, for points that are lit from some directions.
+    ///
+    /// A fact of the scene language: each point of a parallel light is a parallel light of its own,
+    /// which is aimed at the same point.
+    #[inline(always)]
+    fn point_of(&self, area: &Area, number: usize, to_light: Vec3<F8>) -> (Vec3<F8>, Vec3<F8>) {
+        let location = Vec3::<F8>::splat(self.location.to_vec()) + area.offset(number, to_light);
         let axis = Vec3::<F8>::splat(self.axis);
+        if !self.parallel {
+            return (location, axis);
+        }
+        let way = Vec3::<F8>::splat(self.point_at.to_vec()) - location;
+        let distance = length(way);
+        let is_aimed = (F8::splat(NO_DISTANCE)).le(distance);
+        (location, is_aimed.select3(way * (F8::ONE / distance), axis))
+    }
+
+    /// The light at some points, from some locations along some axes.
+    #[inline(always)]
+    fn at_from(&self, location: Vec3<F8>, axis: Vec3<F8>, p: Point3<F8>, live: M8) -> Beamed {
+        let main = Vec3::<F8>::splat(self.axis);
         let from = p.to_vec() - location;
         let depth = dot(from, axis);
         let distance = if self.parallel { depth } else { length(from) };
@@ -172,7 +209,15 @@ impl RenderLight {
         let mut strength = match self.beam {
             Beam::All => F8::ONE,
             Beam::Cone { full, end, tightness } => {
-                let cosine = if self.parallel { F8::ONE } else { depth / distance };
+                let cosine = match (self.parallel, &self.area) {
+                    (false, _) => depth / distance,
+                    (true, None) => F8::ONE,
+                    (true, Some(_)) => dot(axis, main),
+                };
+                // Behind its plane a parallel spotlight does not shine.
+                if self.parallel {
+                    lit &= (F8::ZERO).lt(depth);
+                }
                 // The full cone is tested first, and it alone decides where it is the wider one.
                 let inside = (F8::splat(full)).le(cosine);
                 let edge = inside.select(F8::ONE, smooth_step(end, full, cosine));
@@ -180,7 +225,10 @@ impl RenderLight {
                 edge * tightness.lanes(cosine, lit)
             }
             Beam::Tube { full, end, tightness } => {
-                let off_axis = length(from - axis * depth);
+                // The tube is the same for all points of an area light.
+                let from = p.to_vec() - Vec3::<F8>::splat(self.location.to_vec());
+                let depth = dot(from, main);
+                let off_axis = length(from - main * depth);
                 lit &= !(depth.le(F8::ZERO) | (F8::splat(end)).le(off_axis));
                 tightness.lanes(F8::ONE - off_axis / end, lit) * (F8::ONE - smooth_step(full, end, off_axis))
             }
@@ -198,6 +246,8 @@ impl RenderLight {
         let (target, blockable) = match (never, self.parallel) {
             (true, _) => (location, M8::NONE),
             (false, false) => (location, lit),
+            // Each point of an area light has a plane of its own.
+            (false, true) if self.area.is_some() => (p.to_vec() - axis * depth, lit),
             (false, true) => (p.to_vec() - axis * depth, lit & (F8::ZERO).lt(depth)),
         };
         Beamed { lit, to_light, strength, target: target.to_point(), blockable }
