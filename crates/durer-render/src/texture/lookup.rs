@@ -37,7 +37,7 @@ impl Lookup {
     pub(super) fn value(&self, p: Point3, around: Around) -> f64 {
         let ramp = self.field.value(p, around);
         if self.frequency == 0.0 {
-            return if ramp < 0.0 { ramp - floor(ramp) } else { ramp };
+            return self.shape.bend(if ramp < 0.0 { ramp - floor(ramp) } else { ramp });
         }
         let x = ramp * self.frequency + self.phase;
         let w = if x.abs() < PERIOD { x } else { x % PERIOD };
@@ -49,7 +49,8 @@ impl Lookup {
     pub(super) fn values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
         let ramp = self.field.values(p, around, live);
         if self.frequency == 0.0 {
-            return ramp.lt(F8::ZERO).select(ramp - floor_lanes(ramp), ramp);
+            let w = ramp.lt(F8::ZERO).select(ramp - floor_lanes(ramp), ramp);
+            return self.shape.bend_lanes(w, live);
         }
         let mut w = ramp * self.frequency + F8::splat(self.phase);
         for i in (live & !w.abs().lt(F8::splat(PERIOD))).lanes() {
@@ -103,8 +104,18 @@ mod tests {
         assert!(close(gradient(-1.0, 0.0)(0.25), 0.75));
         assert!(close(gradient(1.0, 0.5)(0.25), 0.75));
         assert!(close(gradient(0.0, 0.5)(0.25), 0.25));
-        // A gradient in place of a default list of bricks has no frequency and no wave.
+        // A gradient in place of a default list of bricks has no frequency.
         assert!(close(gradient(0.0, 0.5)(-0.25), 0.75));
+    }
+
+    #[test]
+    fn a_wave_bends_values_without_a_frequency() {
+        let ramp = Ramp::Gradient(Vec3::new(0.0, 2.0, 0.0));
+        let value = Value { ramp, frequency: 0.0, phase: 0.5, wave: Wave::Triangle };
+        let lookup = Lookup::new(&value).unwrap();
+        for (y, want) in [(0.25, 0.5), (0.75, 0.5), (-0.375, 0.75)] {
+            assert!(close(lookup.value(Point3::new(3.0, y, 4.0), Around::NOWHERE), want), "{y}");
+        }
     }
 
     #[test]

@@ -16,7 +16,7 @@ use durer_math::{Point3, Vec3, elementary};
 use durer_scene::{Slope, SlopeTo};
 
 use crate::texture::Around;
-use crate::vector::{dot, length, unit};
+use crate::vector::{dot, floor, length, unit};
 
 /// The angle between two unit vectors as a number from 0 (opposite) to 1 (parallel).
 fn nearness(n: Vec3, d: Vec3) -> f64 {
@@ -44,14 +44,16 @@ pub(super) fn value(slope: &Slope, p: Point3, around: Around) -> f64 {
     };
     let steep = if to == Vec3::ZERO { 0.0 } else { nearness(normal, unit(to)) };
     let steep = stretched(steep, slope.range);
-    match slope.altitude {
+    let value = match slope.altitude {
         None => steep,
         Some((axis, range)) => {
             let of_height = length(axis);
             let height = stretched(dot(p.to_vec(), axis) / of_height, range);
             (weight * steep + of_height * height) / (weight + of_height)
         }
-    }
+    };
+    // A frequency shows that values outside of the range begin anew (a fact of the scene language).
+    if (0.0..=1.0).contains(&value) { value } else { value - floor(value) }
 }
 
 /// 0 at the first end of a range, 1 at the second.
@@ -79,7 +81,8 @@ mod tests {
         let plain = Slope { to: SlopeTo::Direction(Vec3::Y * 3.0), range: [0.0, 1.0], altitude: None };
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-4, "{a} instead of {b}");
         close(at(&plain, n, p), 0.8485);
-        close(at(&Slope { range: [0.25, 0.5], ..plain }, n, p), 2.3941);
+        close(at(&Slope { range: [0.25, 0.5], ..plain }, n, p), 0.3941);
+        close(at(&Slope { range: [0.9, 1.0], ..plain }, n, p), 0.4848);
         let altitude = Some((Vec3::Y, [0.0, 1.0]));
         close(at(&Slope { to: SlopeTo::Direction(Vec3::Y * 2.0), altitude, ..plain }, n, p), 0.862);
         let on = Point3::new(0.0, y, -(1.0 - y * y).sqrt());
