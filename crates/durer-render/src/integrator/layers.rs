@@ -9,6 +9,7 @@
 //! language).
 
 use super::media::Interface;
+use super::secondary::{mirrored, way_through_film};
 use super::shading_point::Spot;
 use crate::lanes::{Colour8, Rgb8};
 use crate::material::{Finish, Mirror, View};
@@ -147,7 +148,7 @@ impl<'w> Coats<'w> {
                 Some(mirror) => {
                     self.mirror(isa, (mirror, coat.finish.conserve_energy), border, spots);
                     if coat.finish.irid.is_some() {
-                        self.iridesce(&coat.finish, spots);
+                        self.iridesce((&coat.finish, mirror), spots);
                     }
                 }
                 None => self.pass(isa, spots),
@@ -283,14 +284,18 @@ impl<'w> Coats<'w> {
         );
     }
 
-    /// Multiplies the reflection that was recorded last by the interference of a thin film: the way
-    /// through the film to the mirrored direction is as long as that from it.
-    fn iridesce(&mut self, finish: &Finish, spots: &[Spot]) {
+    /// Multiplies the reflection that was recorded last by the interference of a thin film. The
+    /// mirror's exponent changes the interference, too (a fact of the scene language).
+    fn iridesce(&mut self, (finish, mirror): (&Finish, &Mirror), spots: &[Spot]) {
         let first = self.mirrored.len() - self.spots;
-        for ((mirrored, spot), live) in self.mirrored[first..].iter_mut().zip(spots).zip(&self.live) {
-            let way = spot.view.cosine.abs() * 2.0;
-            let factor = finish.interference(spot.hits.p, way, *live);
-            mirrored.reflectance = mirrored.reflectance * factor;
+        for (i, (reflection, spot)) in self.mirrored[first..].iter_mut().zip(spots).enumerate() {
+            let way = way_through_film(&spot.view, mirrored(&spot.view, self.plain.get(i)));
+            let live = &self.live[i];
+            let mut factor = finish.interference(spot.hits.p, way, *live);
+            if !mirror.is_plain() {
+                live.lanes().for_each(|i| factor.set_lane(i, mirror.shown(factor.lane(i))));
+            }
+            reflection.reflectance = reflection.reflectance * factor;
         }
     }
 

@@ -134,19 +134,12 @@ impl<'w> Onward<'w> {
                                 // colour. The ray's weight is still that of a ray that passes. The
                                 // outermost layer's film changes it (facts of the scene language).
                                 let mut factor = spot.paths.factor * faded(world, part, spot);
+                                let direction = mirrored(&spot.view, coats.plain_view(i));
                                 if let Some(film) = coats.film {
-                                    let way = spot.view.cosine.abs() * 2.0;
+                                    let way = way_through_film(&spot.view, direction);
                                     factor = factor * film.interference(spot.hits.p, way, lanes);
                                 }
-                                send(
-                                    total,
-                                    spot,
-                                    mirrored(&spot.view, coats.plain_view(i)),
-                                    weight,
-                                    factor,
-                                    lanes,
-                                    &mut counts.reflected,
-                                );
+                                send(total, spot, direction, weight, factor, lanes, &mut counts.reflected);
                             }
                         }
                     },
@@ -187,13 +180,19 @@ impl<'w> Onward<'w> {
 /// mirrored again, by the unperturbed normal; a perturbed normal that points away from the eye
 /// counts for nothing (facts of the scene language).
 #[inline(always)]
-fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
+pub(super) fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     let direction = reflect(view.eye, view.normal);
     let Some(plain) = plain else { return direction };
     let enters = dot(direction, plain.normal).lt(F8::ZERO);
     let kept = enters.select3(reflect(direction, plain.normal), direction);
     let turned_away = F8::ZERO.lt(dot(view.eye, view.normal));
     turned_away.select3(reflect(view.eye, plain.normal), kept)
+}
+
+/// The sum of the cosines of the angles at which mirrored light comes and goes through a thin film.
+#[inline(always)]
+pub(super) fn way_through_film(view: &View, direction: Vec3<F8>) -> F8 {
+    view.cosine.abs() + dot(direction, view.normal).abs()
 }
 
 /// The lanes where the layers let enough light pass for a ray behind them.
