@@ -46,10 +46,7 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             accuracy: own.accuracy,
         })),
     };
-    let turn = match &own.turn {
-        Some(turn) => Some(placement(turn, at)?),
-        None => None,
-    };
+    let turn = own.modifiers.turn.as_ref().map(|turn| placement(turn, at)).transpose()?;
     let placement = placement(&own.modifiers.place, at)?;
     let (keeps_slope, on_chart) = (own.keeps_slope, own.modifiers.on_chart);
     Ok(Some(scene::Normal { body, placement, keeps_slope, on_chart, turn }))
@@ -79,7 +76,9 @@ fn push_of(own: &Normal) -> Option<scene::Push> {
     };
     match kind {
         PatternKind::Written(Keyword::Bumps, _) => Some(scene::Push::Bumps),
-        PatternKind::Written(Keyword::Dents, _) => Some(scene::Push::Dents),
+        PatternKind::Written(Keyword::Dents, _) => {
+            Some(scene::Push::Dents { old: own.modifiers.turbulence.is_old() })
+        }
         PatternKind::Written(Keyword::Wrinkles, _) => Some(scene::Push::Wrinkles),
         PatternKind::Written(Keyword::Ripples, _) => Some(ripples(false)),
         PatternKind::Written(Keyword::Waves, _) => Some(ripples(true)),

@@ -20,6 +20,7 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
                 body: scene::TextureBody::Layers(made),
                 placement: scene::Placement::IDENTITY,
                 on_chart: false,
+                turn: None,
             })
         }
         Texture::Patterned { pattern, map } => {
@@ -34,6 +35,7 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
                 body: scene::TextureBody::Pattern(Box::new(made)),
                 placement: placement(&pattern.modifiers.place, at)?,
                 on_chart: pattern.modifiers.on_chart,
+                turn: pattern.modifiers.turn.as_ref().map(|turn| placement(turn, at)).transpose()?,
             })
         }
     }
@@ -220,9 +222,11 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
         PatternKind::Gradient(direction) => return Ok(scene::Ramp::Gradient(vector(*direction))),
         PatternKind::Ramp(ramp, _) => {
             let mut ramp = (**ramp).clone();
-            // Turbulence moves the points of a spiral, and shifts it too (a fact of the language).
-            if let scene::Ramp::Spiral { turbulence, .. } = &mut ramp {
-                *turbulence = stirred();
+            match &mut ramp {
+                // Turbulence moves the points of a spiral, and shifts it too (a fact of the language).
+                scene::Ramp::Spiral { turbulence, .. } => *turbulence = stirred(),
+                scene::Ramp::Crackle(crackle) => crackle.old = own.is_old(),
+                _ => {}
             }
             return Ok(ramp);
         }

@@ -84,7 +84,10 @@ pub enum Push {
     /// Noise.
     Bumps,
     /// Noise that is strong in few places.
-    Dents,
+    Dents {
+        /// Whether its strength is the noise of the first generator.
+        old: bool,
+    },
     /// Octaves of noise.
     Wrinkles,
     /// Waves around random centres.

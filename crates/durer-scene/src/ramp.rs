@@ -137,6 +137,8 @@ pub struct Crackle {
     pub offset: f64,
     /// Whether all points with the same nearest point have one number.
     pub solid: bool,
+    /// Whether that number has the range of the first noise generator.
+    pub old: bool,
 }
 
 /// The angle of a surface's normal to a direction, mixed with a height.

@@ -22,6 +22,9 @@ pub struct Texture {
     /// Whether its pattern is shown by the surface's texture coordinates `(u, v, 0)` in place of the
     /// point. Then only its own placement counts.
     pub on_chart: bool,
+    /// If it is shown by texture coordinates: the placement by which the perturbations of normals in
+    /// its pattern are turned, if that is not its own placement.
+    pub turn: Option<Placement>,
 }
 
 /// The contents of a texture.
@@ -84,7 +87,12 @@ impl Texture {
 
     /// Makes a texture of several layers, from the innermost to the outermost.
     pub fn layers(layers: Vec<Layer>) -> Self {
-        Self { body: TextureBody::Layers(layers), placement: Placement::IDENTITY, on_chart: false }
+        Self {
+            body: TextureBody::Layers(layers),
+            placement: Placement::IDENTITY,
+            on_chart: false,
+            turn: None,
+        }
     }
 
     /// Makes a texture of other textures, selected or mixed by a pattern.
@@ -93,11 +101,15 @@ impl Texture {
             body: TextureBody::Pattern(Box::new(pattern)),
             placement: Placement::IDENTITY,
             on_chart: false,
+            turn: None,
         }
     }
 
     /// Transforms the texture by `map`.
     pub fn transform(&mut self, map: &Affine) -> Result<(), AffineError> {
+        if let Some(turn) = &mut self.turn {
+            turn.then(map)?;
+        }
         self.placement.then(map)
     }
 

@@ -74,12 +74,12 @@ impl Texture {
     /// Shows the texture by the surface's texture coordinates.
     pub(crate) fn put_on_chart(&mut self) {
         match self {
-            Self::Patterned { pattern, .. } => pattern.modifiers.on_chart = true,
+            Self::Patterned { pattern, .. } => pattern.modifiers.put_on_chart(),
             Self::Layers(layers) => {
                 for layer in layers {
                     layer.pigment.modifiers.on_chart = true;
                     if let Some(normal) = &mut layer.normal {
-                        Rc::make_mut(normal).put_on_chart();
+                        Rc::make_mut(normal).modifiers.put_on_chart();
                     }
                 }
             }

@@ -27,8 +27,6 @@ pub(crate) struct Normal {
     pub(crate) normals: Option<Rc<Map<Normal>>>,
     /// Whether the pattern is the picture of a `bump_map`.
     pub(crate) is_bump_map: bool,
-    /// If its whole texture is seen at texture coordinates: the map by which the perturbation is turned.
-    pub(crate) turn: Option<Matrix>,
 }
 
 /// The perturbation of a normal.
@@ -55,7 +53,6 @@ impl Default for Normal {
             slopes: None,
             normals: None,
             is_bump_map: false,
-            turn: None,
         }
     }
 }
@@ -63,18 +60,6 @@ impl Default for Normal {
 impl Normal {
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.modifiers.transform(by);
-        if let Some(turn) = &mut self.turn {
-            *turn = turn.then(by);
-        }
-    }
-
-    /// Shows the normal at texture coordinates, with its whole texture: its perturbation is still
-    /// turned by all transforms (a fact of the language).
-    pub(crate) fn put_on_chart(&mut self) {
-        if !self.modifiers.on_chart {
-            self.turn = Some(self.modifiers.place);
-        }
-        self.modifiers.on_chart = true;
     }
 
     /// The nesting depth of maps.

@@ -86,6 +86,9 @@ pub(crate) struct PatternModifiers {
     pub(crate) place: Matrix,
     /// Whether the pattern is seen at the surface's texture coordinates in place of the point.
     pub(crate) on_chart: bool,
+    /// If its whole texture is seen at texture coordinates: the map by which perturbations of normals
+    /// are turned.
+    pub(crate) turn: Option<Matrix>,
 }
 
 impl Default for PatternModifiers {
@@ -98,6 +101,7 @@ impl Default for PatternModifiers {
             warps: Rc::default(),
             place: Matrix::IDENTITY,
             on_chart: false,
+            turn: None,
         }
     }
 }
@@ -127,6 +131,18 @@ impl PatternModifiers {
         if !self.on_chart {
             self.place = self.place.then(by);
         }
+        if let Some(turn) = &mut self.turn {
+            *turn = turn.then(by);
+        }
+    }
+
+    /// Shows the pattern at texture coordinates, with its whole texture: the perturbation of normals
+    /// is still turned by all transforms (a fact of the language).
+    pub(crate) fn put_on_chart(&mut self) {
+        if !self.on_chart {
+            self.turn = Some(self.place);
+        }
+        self.on_chart = true;
     }
 }
 

@@ -36,7 +36,7 @@ impl Parser<'_> {
             Keyword::Crackle => {
                 self.next()?;
                 let form = Vec3::new(-1.0, 1.0, 0.0);
-                Ramp::Crackle(Crackle { form, metric: 2.0, offset: 0.0, solid: false })
+                Ramp::Crackle(Crackle { form, metric: 2.0, offset: 0.0, solid: false, old: false })
             }
             Keyword::Mandel | Keyword::Julia => Ramp::Fractal(self.fractal(FractalMap::Power(2))?),
             Keyword::Magnet => {

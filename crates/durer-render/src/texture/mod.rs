@@ -375,7 +375,11 @@ impl RenderTexture {
             }
             TextureBody::Pattern(pattern) => {
                 let own = if texture.on_chart { *texture.placement.affine() } else { joined()? };
-                let world = own.then(outer)?;
+                let before = place::placement_before(place::warps_of(pattern))?;
+                let world = match &texture.turn {
+                    Some(turn) => before.then(turn.affine())?.then(around)?.then(outer)?,
+                    None => before.then(&own)?.then(outer)?,
+                };
                 let part =
                     |t: &std::sync::Arc<Texture>| Self::new(t, &Affine::IDENTITY, &world, ambient_light);
                 Self::Pattern(

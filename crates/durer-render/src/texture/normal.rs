@@ -16,7 +16,7 @@ use durer_scene::{Height, ImageValue, Normal, NormalBody};
 
 use super::field::Pusher;
 use super::lookup::Lookup;
-use super::place::Place;
+use super::place::{Place, placement_before, warps_of};
 use super::{Around, Around8, Blend, Picture, Shown};
 use crate::vector::unit;
 
@@ -64,11 +64,16 @@ impl RenderNormal {
         let on_chart = normal.on_chart;
         let own = *normal.placement.affine();
         let local = if on_chart { own } else { own.then(around)? };
+        let before = placement_before(match &normal.body {
+            NormalBody::Height(height) => &height.warps,
+            NormalBody::Push { warps, .. } | NormalBody::Picture { warps, .. } => warps,
+            NormalBody::Normals(pattern) => warps_of(pattern),
+        })?;
         // On a chart a normal is not turned with its pattern, unless its whole texture is on the chart.
         let turn = match &normal.turn {
-            Some(turn) => Some(turn.affine().then(around)?.then(outer)?),
+            Some(turn) => Some(before.then(turn.affine())?.then(around)?.then(outer)?),
             None if on_chart => None,
-            None => Some(local.then(outer)?),
+            None => Some(before.then(&local)?.then(outer)?),
         };
         let turn = turn.filter(|turn| turn.as_translation().is_none()).map(|turn| {
             let (linear, inverse) = (turn.linear(), turn.inverse_linear());

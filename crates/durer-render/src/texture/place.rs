@@ -2,7 +2,7 @@
 
 use super::warp::Warp;
 use super::{Around, Around8};
-use durer_math::{Affine, F8, Point3, Vec3};
+use durer_math::{Affine, AffineError, F8, Point3, Vec3};
 use durer_scene::{Pattern, PointWarp};
 
 /// The inverse of a placement, for shading.
@@ -36,6 +36,23 @@ impl Warps {
     }
 }
 
+/// The placement of what stands before the given maps of the point, without the other maps. Normals are
+/// turned by the placements between warps, but not by warps (a fact of the scene language).
+pub(crate) fn placement_before(warps: &[PointWarp]) -> Result<Affine, AffineError> {
+    warps.iter().rev().try_fold(Affine::IDENTITY, |map, warp| match warp {
+        PointWarp::Placed(placement) => map.then(placement.affine()),
+        _ => Ok(map),
+    })
+}
+
+/// The maps of the point behind the placement of a pattern.
+pub(crate) fn warps_of<T>(pattern: &Pattern<T>) -> &[PointWarp] {
+    match pattern {
+        Pattern::Warped { warps, .. } => warps,
+        _ => &[],
+    }
+}
+
 impl Place {
     pub(crate) fn new(map: &Affine) -> Self {
         match map.as_translation() {
@@ -47,10 +64,7 @@ impl Place {
 
     /// The place of a pattern that is placed by `map`, with its warps.
     pub(crate) fn warped<T>(map: &Affine, pattern: &Pattern<T>) -> Self {
-        match pattern {
-            Pattern::Warped { warps, .. } => Self::through(map, warps),
-            _ => Self::new(map),
-        }
+        Self::through(map, warps_of(pattern))
     }
 
     /// The place of what is placed by `map` and seen through warps.

@@ -30,6 +30,7 @@ pub(super) fn texture(
         body: TextureBody::Fields(Box::new(fields)),
         placement: Placement::IDENTITY,
         on_chart: false,
+        turn: None,
     };
     if made.has_empty_pattern() { Err(LowerErrorKind::EmptyPattern) } else { Ok(Arc::new(made)) }
 }

@@ -596,7 +596,7 @@ fn corner_texture(mesh: &Mesh, face: &Face, textures: [u32; 3]) -> Option<Textur
         rest: Arc::clone(first),
     };
     let body = TextureBody::Fields(Box::new(fields));
-    Some(Texture { body, placement: Placement::IDENTITY, on_chart: false })
+    Some(Texture { body, placement: Placement::IDENTITY, on_chart: false, turn: None })
 }
 
 /// The placement `first`, followed by `next`.

@@ -3,6 +3,7 @@
 use durer_math::{F8, Point3, Vec3, elementary};
 use durer_scene::{CellNumbers, Crackle};
 
+use super::noise::ranged;
 use crate::texture::Grains;
 use crate::vector::floor;
 
@@ -20,6 +21,7 @@ pub(crate) struct Points {
     /// The distance along a fourth axis, as the metric sums it.
     fourth: f64,
     solid: bool,
+    old: bool,
     /// The noise of what all points with the same nearest point share.
     grains: Grains,
 }
@@ -64,6 +66,7 @@ impl Points {
             metric,
             fourth: metric.part(crackle.offset),
             solid: crackle.solid,
+            old: crackle.old,
             grains: Grains::current(),
         }
     }
@@ -110,7 +113,7 @@ impl Points {
 
     /// Points that are only asked for the nearest.
     pub(super) fn of_cells() -> Self {
-        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false };
+        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false, old: false };
         Self::new(&crackle)
     }
 
@@ -125,8 +128,7 @@ impl Points {
         let (nearest, point) = self.nearest(p);
         if self.solid {
             let [x, y, z] = point.map(F8::splat);
-            let n = self.grains.values(Vec3 { x, y, z }).0[0];
-            return ((n + 1.052_42) * 0.489_855_82).clamp(0.0, 1.0);
+            return ranged(&self.grains, Vec3 { x, y, z }, self.old).0[0];
         }
         let [first, second, third] = nearest.map(|sum| self.metric.distance(sum + self.fourth));
         let third = if self.form.z == 0.0 { 0.0 } else { self.form.z * third };
@@ -174,7 +176,7 @@ mod tests {
     fn values_are_sums_of_the_distances_of_functions() {
         for (metric, offset) in [(2.0, 0.0), (2.0, 0.3), (1.0, 0.2), (3.5, 0.0)] {
             for form in [Vec3::new(-1.0, 1.0, 0.0), Vec3::X, Vec3::new(-0.4, -0.2, 0.6)] {
-                let points = Points::new(&Crackle { form, metric, offset, solid: false });
+                let points = Points::new(&Crackle { form, metric, offset, solid: false, old: false });
                 for k in 0..300 {
                     let k = f64::from(k);
                     let p = Point3::new(k * 0.377 - 20.0, k * 0.611 - 40.0, 7.0 - k * 0.239);
@@ -188,8 +190,20 @@ mod tests {
     }
 
     #[test]
+    fn solid_cells_have_the_range_of_their_noise_generator() {
+        let points =
+            |old| Points::new(&Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: true, old });
+        for k in 0..100 {
+            let k = f64::from(k);
+            let p = Point3::new(k * 0.377 - 20.0, k * 0.611 - 40.0, 7.0 - k * 0.239);
+            let noise = points(false).value(p) / 0.489_855_82 - 1.052_42;
+            assert!((points(true).value(p) - (noise + 0.5).clamp(0.0, 1.0)).abs() < 1e-12, "{p:?}");
+        }
+    }
+
+    #[test]
     fn means_are_near_those_of_the_scene_language() {
-        let crackle = |form: Vec3| Crackle { form, metric: 2.0, offset: 0.0, solid: false };
+        let crackle = |form: Vec3| Crackle { form, metric: 2.0, offset: 0.0, solid: false, old: false };
         for (form, want) in [(Vec3::new(-1.0, 1.0, 0.0), 0.196), (Vec3::X, 0.519), (Vec3::Y, 0.714)] {
             let points = Points::new(&crackle(form));
             let at = |k: i32| {

@@ -23,7 +23,7 @@ use durer_math::{F8, M8, Point3, Vec3, elementary};
 use durer_scene::{Grain, GrainKind, Turbulence};
 
 /// `N`.
-fn ranged(grains: &Grains, p: Vec3<F8>, old: bool) -> F8 {
+pub(super) fn ranged(grains: &Grains, p: Vec3<F8>, old: bool) -> F8 {
     let n = grains.values(p);
     let n = if old { n + F8::splat(0.5) } else { (n + F8::splat(1.05242)) * 0.489_855_82 };
     n.max(F8::ZERO).min(F8::ONE)

@@ -12,7 +12,8 @@ use crate::vector::{dot, floor};
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::texture) enum Pusher {
     Bumps(Grains),
-    Dents(Grains),
+    /// Noise, and whether its strength is the first generator's.
+    Dents(Grains, bool),
     Wrinkles(Grains),
     Ripples(Box<Centres>),
     Quilted(f64, f64),
@@ -32,7 +33,7 @@ impl Pusher {
     pub(in crate::texture) fn new(push: &Push) -> Self {
         match push {
             Push::Bumps => Self::Bumps(Grains::current()),
-            Push::Dents => Self::Dents(Grains::current()),
+            &Push::Dents { old } => Self::Dents(Grains::current(), old),
             Push::Wrinkles => Self::Wrinkles(Grains::current()),
             Push::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
             &Push::Quilted(bottom, top) => Self::Quilted(bottom, top),
@@ -44,9 +45,10 @@ impl Pusher {
     pub(in crate::texture) fn vector(&self, p: Point3, n: Vec3) -> Vec3 {
         match self {
             Self::Bumps(grains) => grains.vector(p),
-            Self::Dents(grains) => {
+            Self::Dents(grains, old) => {
                 let v = grains.vector(p);
-                let n = ((v.x + 1.052_42) * 0.489_855_82).clamp(0.0, 1.0);
+                let n = if *old { v.x + 0.5 } else { (v.x + 1.052_42) * 0.489_855_82 };
+                let n = n.clamp(0.0, 1.0);
                 v * (n * n * n)
             }
             Self::Wrinkles(grains) => {
