@@ -10,6 +10,12 @@ use std::time::{Duration, Instant};
 /// The message if it is not installed.
 pub(crate) const MISSING: &str = "not run: the program `povray` (POV-Ray 3.7; on Debian `apt-get install povray povray-includes`) is not installed";
 
+/// What it says if its threads do not start in time, which happens on a busy machine.
+const LATE: &str = "Timed out waiting for worker thread startup";
+
+/// The number of times it is started if its threads do not start in time, at most.
+const STARTS: usize = 20;
+
 /// The longest time of a picture: that of the slowest scenes of its own distribution, several times.
 const MOST_TIME: Duration = Duration::from_secs(600);
 
@@ -60,6 +66,25 @@ impl Povray {
     }
 
     fn run(&self, scene: &Path, picture: &Path, shot: Shot<'_>, library: &Path, more: &[String]) -> Outcome {
+        let start = || self.run_once(scene, picture, shot, library, more);
+        let mut outcome = start();
+        for _ in 1..STARTS {
+            if !outcome.as_ref().is_err_and(|why| why.contains(LATE)) {
+                break;
+            }
+            outcome = start();
+        }
+        outcome
+    }
+
+    fn run_once(
+        &self,
+        scene: &Path,
+        picture: &Path,
+        shot: Shot<'_>,
+        library: &Path,
+        more: &[String],
+    ) -> Outcome {
         assert_eq!(shot.aa, "off", "pictures are compared without anti-aliasing only");
         let mut child = Command::new("povray")
             .arg(format!("+I{}", scene.display()))

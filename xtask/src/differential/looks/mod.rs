@@ -18,6 +18,12 @@ struct Maker {
     has_words: bool,
     /// Whether a surface has the look that is made. The sky and functions have no slope.
     is_on_surface: bool,
+    /// Whether the look that is made may be shown at texture coordinates. There z is 0, the line of
+    /// corners of `hexagon`, where the last digit decides which hexagon POV-Ray shows.
+    is_at_uv: bool,
+    /// Whether the surface that is made reaches far away. There the powers of the distance that shade
+    /// the outside of fractals have no digits behind the point that are known.
+    is_endless: bool,
     /// The names of declared pigments.
     pigments: Vec<String>,
     /// The number of the functions declared so far.
@@ -33,6 +39,8 @@ pub(super) fn scene(seed: u64, number: u64) -> Scene {
         r: Random::new(seed ^ 0x6C6F_6F6B_7300, number),
         has_words: false,
         is_on_surface: true,
+        is_at_uv: false,
+        is_endless: false,
         pigments: Vec::new(),
         functions: 0,
         declared: Vec::new(),
@@ -50,7 +58,7 @@ impl Maker {
         let camera = self.camera();
         let lights = self.lights();
         for number in 0..self.r.below(3) {
-            let mut made = self.off_surface(|m| m.pigment(2));
+            let mut made = self.off_surface(|m| m.at_uv(true, |m| m.pigment(2)));
             let name = format!("Paint{number}");
             made.open = format!("#declare {name} = {}", made.open);
             self.declared.push(made);
@@ -61,6 +69,11 @@ impl Maker {
             let mut made = if self.r.chance(50) { self.finish() } else { self.pigment(1) };
             made.open = format!("#default {{ {}", made.open);
             made.close = "} }";
+            // Lists of pigments would inherit these, and waves that blend them are not supported.
+            made.said.retain(|node| {
+                !["frequency", "phase"].iter().any(|word| node.open.starts_with(word))
+                    && !node.open.contains("_wave")
+            });
             later.push(made);
         }
         let mut objects = self.surroundings();
@@ -77,6 +90,15 @@ impl Maker {
         let before = std::mem::replace(&mut self.is_on_surface, false);
         let made = make(self);
         self.is_on_surface = before;
+        made
+    }
+
+    /// Makes a look that may be shown at texture coordinates.
+    fn at_uv<T>(&mut self, may_be: bool, make: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.is_at_uv;
+        self.is_at_uv |= may_be;
+        let made = make(self);
+        self.is_at_uv = before;
         made
     }
 

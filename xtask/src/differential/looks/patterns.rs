@@ -56,7 +56,9 @@ impl Maker {
             words += &format!(" interior {}, {}", r.below(7), r.number(0.3, 1.5));
         }
         if r.chance(40) {
-            words += &format!(" exterior {}, {}", r.below(7), r.number(0.3, 1.5));
+            let kind = r.below(7);
+            let kind = if self.is_endless { kind % 2 } else { kind };
+            words += &format!(" exterior {kind}, {}", r.number(0.3, 1.5));
         }
         words
     }

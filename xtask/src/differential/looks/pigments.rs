@@ -71,7 +71,7 @@ impl Maker {
                 size += &format!(" mortar {}", self.r.number(0.03, 0.15));
                 return ("brick".into(), vec![item(self), item(self), Node::text(size)]);
             }
-            1 => ("hexagon", 3),
+            1 if !self.is_at_uv => ("hexagon", 3),
             2 => ("triangular", 6),
             3 => ("square", 4),
             4 => {
@@ -126,7 +126,7 @@ impl Maker {
             0..=5 => {
                 let uv = self.uv(has_uv);
                 let depth = 1 + usize::from(self.r.chance(30));
-                let (words, said) = self.pigment_body(depth, false);
+                let (words, said) = self.at_uv(!uv.is_empty(), |m| m.pigment_body(depth, false));
                 let mut all = vec![block("pigment", uv, &words, said)];
                 if self.r.chance(50) {
                     all.push(self.normal(1));
@@ -176,7 +176,7 @@ impl Maker {
     /// A texture with at most `depth` others inside each other.
     pub(super) fn texture(&mut self, depth: usize, has_uv: bool) -> Node {
         let uv = self.uv(has_uv);
-        let (words, mut said) = self.texture_body(depth);
+        let (words, mut said) = self.at_uv(!uv.is_empty(), |m| m.texture_body(depth));
         if self.r.chance(25) {
             said.push(Node::text(self.place()));
         }

@@ -238,7 +238,9 @@ impl Maker {
         if self.r.chance(70) {
             // Unlike y = -2, this height is the border of no pattern.
             let mut ground = Node::block("plane { y, -2.0137", Vec::new(), 0);
+            self.is_endless = true;
             ground.said = self.look(false);
+            self.is_endless = false;
             all.push(ground);
         }
         if self.r.chance(12) {
