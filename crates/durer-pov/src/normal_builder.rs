@@ -46,7 +46,7 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             accuracy: own.accuracy,
         })),
     };
-    let turn = own.modifiers.turn.as_ref().map(|turn| placement(turn, at)).transpose()?;
+    let turn = own.modifiers.turn.as_deref().map(|turn| placement(turn, at)).transpose()?;
     let placement = placement(&own.modifiers.place, at)?;
     let (keeps_slope, on_chart) = (own.keeps_slope, own.modifiers.on_chart);
     Ok(Some(scene::Normal { body, placement, keeps_slope, on_chart, turn }))

@@ -35,7 +35,7 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
                 body: scene::TextureBody::Pattern(Box::new(made)),
                 placement: placement(&pattern.modifiers.place, at)?,
                 on_chart: pattern.modifiers.on_chart,
-                turn: pattern.modifiers.turn.as_ref().map(|turn| placement(turn, at)).transpose()?,
+                turn: pattern.modifiers.turn.as_deref().map(|turn| placement(turn, at)).transpose()?,
             })
         }
     }

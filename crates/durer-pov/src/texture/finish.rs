@@ -192,20 +192,15 @@ impl Parser<'_> {
         Ok(exponent)
     }
 
-    /// Reads `reflection 0.5` or `reflection { min, max ... }`.
+    /// Reads `reflection 0.5` or `reflection { min, max ... }`. The falloff, the exponent and
+    /// `metallic` of a reflection before stay, `fresnel` does not (a fact of the language).
     fn reflection(&mut self, reflection: &mut Reflection) -> Result<()> {
         if !self.take_mark(Mark::BraceOpen)? {
             let colour = rgb(self.colour()?);
-            *reflection = Reflection {
-                min: colour,
-                max: colour,
-                exponent: reflection.exponent,
-                ..Reflection::default()
-            };
+            *reflection = Reflection { min: colour, max: colour, fresnel: false, ..*reflection };
             return Ok(());
         }
-        let exponent = reflection.exponent;
-        *reflection = Reflection { exponent, ..Reflection::default() };
+        reflection.fresnel = false;
         let first = rgb(self.colour()?);
         self.skip_comma()?;
         let second =

@@ -88,7 +88,7 @@ pub(crate) struct PatternModifiers {
     pub(crate) on_chart: bool,
     /// If its whole texture is seen at texture coordinates: the map by which perturbations of normals
     /// are turned.
-    pub(crate) turn: Option<Matrix>,
+    pub(crate) turn: Option<Box<Matrix>>,
 }
 
 impl Default for PatternModifiers {
@@ -132,7 +132,7 @@ impl PatternModifiers {
             self.place = self.place.then(by);
         }
         if let Some(turn) = &mut self.turn {
-            *turn = turn.then(by);
+            **turn = turn.then(by);
         }
     }
 
@@ -140,7 +140,7 @@ impl PatternModifiers {
     /// is still turned by all transforms (a fact of the language).
     pub(crate) fn put_on_chart(&mut self) {
         if !self.on_chart {
-            self.turn = Some(self.place);
+            self.turn = Some(Box::new(self.place));
         }
         self.on_chart = true;
     }
