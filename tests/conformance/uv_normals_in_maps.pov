@@ -15,3 +15,5 @@ sphere { 0, 0.95 texture { Nested } scale <1, 0.7, 1.2> rotate y*30 translate <2
 box { -0.7, 0.7 texture { Mixed scale 0.6 } rotate <30, 40, 20> translate <-2, -1.1, 0> }
 torus { 0.65, 0.3 texture { Nested } scale <1, 1.6, 1> rotate <60, 0, 30> translate <0, -1.1, 0> }
 sor { 5, <0.6, -1.3>, <0.613, -0.7>, <0.432, 0.1>, <0.275, 0.7>, <0.2, 1.2> texture { Listed } rotate <-30, 128, -22> translate <2, -1.1, 0> }
+// Bumps that keep their slope are not scaled with the map around them.
+disc { <0, 0, 2>, z, 9 texture { gradient y texture_map { [0 pigment { rgb 0.5 } normal { leopard 0.8 scale 0.3 no_bump_scale }] [1 pigment { rgb <0.3, 0.5, 0.4> } normal { leopard 0.8 scale 0.3 no_bump_scale }] } scale 2 } }

@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use crate::stats::RayCounts;
 use crate::vector::dot;
 use crate::world::{Look, World};
-use durer_math::{F8, Isa, M8, Point3};
+use durer_math::{F8, Isa, M8, Point3, Vec3};
 
 /// Computes the direct light on shading points.
 #[derive(Default)]
@@ -75,7 +75,7 @@ impl<'w> Lamps<'w> {
             // The steps are small, and each leaves its results in memory: in large steps the
             // compiler mixes the lanes.
             self.fall(isa, lamp, None, (double, behind), spots);
-            self.shine(isa, lamp, (coats, behind), spots);
+            self.shine(isa, lamp, None, (coats, behind), spots);
             self.aim(isa, lamp, spots);
             if record.is_some() {
                 self.unblocked.clear();
@@ -98,8 +98,16 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Computes what all layers scatter of a light that has fallen on spots, without its colour.
-    fn shine(&mut self, isa: Isa, lamp: &RenderLight, (coats, behind): (&Coats<'_>, bool), spots: &[Spot]) {
+    /// Computes what all layers scatter of a light that has fallen on spots, without its colour. For
+    /// one point of an area light `to_middle` has the directions to the light's location.
+    fn shine(
+        &mut self,
+        isa: Isa,
+        lamp: &RenderLight,
+        to_middle: Option<&[Vec3<F8>]>,
+        (coats, behind): (&Coats<'_>, bool),
+        spots: &[Spot],
+    ) {
         for (k, finish) in coats.finishes.iter().enumerate() {
             if let Some((views, _)) = coats.bent(k) {
                 self.turn(views, behind);
@@ -113,7 +121,7 @@ impl<'w> Lamps<'w> {
                 self.highlight(isa, finish, (coats.lit(k), coats.bent(k)), spots);
             }
             if finish.irid.is_some() {
-                self.iridesce(finish, &before, coats.bent(k), spots);
+                self.iridesce(finish, (&before, to_middle), coats.bent(k), spots);
             }
         }
     }
@@ -130,9 +138,10 @@ impl<'w> Lamps<'w> {
     ) {
         let mut sums = vec![Rgb8::BLACK; spots.len()];
         let weight = F8::splat(1.0 / area.len() as f64);
+        let to_middle: Vec<_> = spots.iter().map(|spot| lamp.at(spot.hits.p, spot.live).to_light).collect();
         for number in 0..area.len() {
             self.fall(isa, lamp, Some((area, number)), how.1, spots);
-            self.shine(isa, lamp, (how.0, how.1.1), spots);
+            self.shine(isa, lamp, Some(&to_middle), (how.0, how.1.1), spots);
             self.aim(isa, lamp, spots);
             for (sum, light) in sums.iter_mut().zip(self.shadows.light()) {
                 *sum += *light * weight;
@@ -358,13 +367,21 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Multiplies what a layer added to the light by the interference of a thin film.
-    fn iridesce(&mut self, finish: &Finish, before: &[Rgb8], bent: Option<Bent<'_>>, spots: &[Spot]) {
+    /// Multiplies what a layer added to the light by the interference of a thin film. The film knows
+    /// only the location of an area light, whose points light surfaces (a fact of the scene language).
+    fn iridesce(
+        &mut self,
+        finish: &Finish,
+        (before, to_middle): (&[Rgb8], Option<&[Vec3<F8>]>),
+        bent: Option<Bent<'_>>,
+        spots: &[Spot],
+    ) {
         let (falling, places) = (&self.falling, self.shadows.places(spots.len()));
         for (i, ((Falling { at, .. }, to), before)) in falling.iter().zip(places).zip(before).enumerate() {
             let view = bent.map_or(&spots[i].view, |(views, _)| &views[i]);
             let mut light = *to.light;
-            let way = at.cosine.abs() + view.cosine.abs();
+            let cosine = to_middle.map_or(at.cosine, |to_middle| dot(to_middle[i], view.normal));
+            let way = cosine.abs() + view.cosine.abs();
             let factor = finish.interference(spots[i].hits.p, way, at.live);
             for lane in at.live.lanes() {
                 let (old, new) = (before.lane(lane), light.lane(lane));

@@ -116,6 +116,12 @@ mod tests {
         for (y, want) in [(0.25, 0.5), (0.75, 0.5), (-0.375, 0.75)] {
             assert!(close(lookup.value(Point3::new(3.0, y, 4.0), Around::NOWHERE), want), "{y}");
         }
+        // As wood after a list in `#default`.
+        let ramp = Ramp::Wood(None);
+        let lookup = Lookup::new(&Value { ramp, frequency: 0.0, phase: 0.0, wave: Wave::Triangle }).unwrap();
+        for (x, want) in [(0.25, 0.5), (1.125, 0.25), (2.75, 0.5)] {
+            assert!(close(lookup.value(Point3::new(x, 0.0, 0.0), Around::NOWHERE), want), "{x}");
+        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ use super::field::Pusher;
 use super::lookup::Lookup;
 use super::place::{Place, placement_before, warps_of};
 use super::{Around, Around8, Blend, Picture, Shown};
-use crate::vector::unit;
+use crate::vector::{length, unit};
 
 /// A [`Normal`] with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,9 @@ pub(crate) struct RenderNormal {
     /// From normals around it to those of its space, and back; `None` if they are the same.
     turn: Option<Box<(Matrix3, Matrix3)>>,
     keeps_slope: bool,
+    /// From normals of the world to those of the texture around it, if bumps keep their slope. Only the
+    /// scale within that texture counts (a fact of the scene language).
+    outer: Option<Box<Matrix3>>,
     body: Body,
 }
 
@@ -75,6 +78,8 @@ impl RenderNormal {
             None if on_chart => None,
             None => Some(before.then(&local)?.then(outer)?),
         };
+        let outer = (normal.keeps_slope && outer.as_translation().is_none())
+            .then(|| Box::new(transposed(&outer.linear())));
         let turn = turn.filter(|turn| turn.as_translation().is_none()).map(|turn| {
             let (linear, inverse) = (turn.linear(), turn.inverse_linear());
             Box::new((transposed(&linear), transposed(&inverse)))
@@ -101,7 +106,7 @@ impl RenderNormal {
                 (Place::warped(&local, pattern), Body::Normals(Box::new(blend)))
             }
         };
-        Ok(Self { place: place.on_chart(on_chart), turn, keeps_slope: normal.keeps_slope, body })
+        Ok(Self { place: place.on_chart(on_chart), turn, keeps_slope: normal.keeps_slope, outer, body })
     }
 
     /// The unit normals at some points, perturbed from those around.
@@ -123,6 +128,8 @@ impl RenderNormal {
         };
         if !self.keeps_slope {
             own = unit(own);
+        } else if let Some(outer) = &self.outer {
+            own = own * (1.0 / length(times(outer, n)));
         }
         let moved = match &self.body {
             Body::Height(landscape) => own - landscape.gradient(p, around) * (DEPTH * landscape.amount),

@@ -1,6 +1,7 @@
 //! Waveforms, which map a number from 0 to 1 to another.
 
 use crate::power::Power;
+use crate::vector::{floor, floor_lanes};
 use core::f64::consts::{PI, TAU};
 use durer_math::{F8, M8, elementary};
 use durer_scene::Wave;
@@ -32,7 +33,12 @@ impl Shape {
     pub(super) fn bend(self, w: f64) -> f64 {
         match self {
             Self::Ramp => w,
-            Self::Triangle => 2.0 * if w < 0.5 { w } else { 1.0 - w },
+            Self::Triangle => {
+                // Without a frequency values may be above 1, where the triangle begins anew (a fact of the
+                // scene language).
+                let w = if w > 1.0 { w - floor(w) } else { w };
+                2.0 * if w < 0.5 { w } else { 1.0 - w }
+            }
             Self::Sine => (1.0 + elementary::sin(TAU * w)) * 0.5,
             Self::Scallop => elementary::sin(PI * w).abs(),
             Self::Cubic => w * w * (3.0 - 2.0 * w),
@@ -45,7 +51,10 @@ impl Shape {
     pub(super) fn bend_lanes(self, w: F8, live: M8) -> F8 {
         match self {
             Self::Ramp => w,
-            Self::Triangle => w.lt(F8::splat(0.5)).select(w, F8::ONE - w) * 2.0,
+            Self::Triangle => {
+                let w = (F8::ONE).lt(w).select(w - floor_lanes(w), w);
+                w.lt(F8::splat(0.5)).select(w, F8::ONE - w) * 2.0
+            }
             Self::Cubic => w * w * (F8::splat(3.0) - w * 2.0),
             Self::Poly(power) => power.lanes(w, live),
             Self::Sine | Self::Scallop => {
