@@ -1,4 +1,4 @@
-// A second reflection keeps the falloff, exponent and metallic of the one before, but not fresnel.
+// A second reflection keeps the falloff, exponent, metallic and fresnel of the one before.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #default { finish { ambient 0.2 reflection { rgb <0.3, 0.1, 0.05>, rgb <0.7, 0.5, 0.7> falloff 3 metallic 0.9 exponent 0.8 fresnel on } } }

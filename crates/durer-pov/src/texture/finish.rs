@@ -192,15 +192,15 @@ impl Parser<'_> {
         Ok(exponent)
     }
 
-    /// Reads `reflection 0.5` or `reflection { min, max ... }`. The falloff, the exponent and
-    /// `metallic` of a reflection before stay, `fresnel` does not (a fact of the language).
+    /// Reads `reflection 0.5` or `reflection { min, max ... }`. All other words of a reflection before
+    /// stay (a fact of the language).
     fn reflection(&mut self, reflection: &mut Reflection) -> Result<()> {
         if !self.take_mark(Mark::BraceOpen)? {
             let colour = rgb(self.colour()?);
-            *reflection = Reflection { min: colour, max: colour, fresnel: false, ..*reflection };
+            *reflection = Reflection { min: colour, max: colour, ..*reflection };
             return Ok(());
         }
-        reflection.fresnel = false;
+        let mut is_fresnel = false;
         let first = rgb(self.colour()?);
         self.skip_comma()?;
         let second =
@@ -214,12 +214,15 @@ impl Parser<'_> {
                 Item::Mark(Mark::BraceClose) => break,
                 Item::Word(Keyword::Falloff) => reflection.falloff = self.float()?,
                 Item::Word(Keyword::Exponent) => reflection.exponent = self.exponent()?,
-                Item::Word(Keyword::Fresnel) => reflection.fresnel = self.switch_value()?,
+                Item::Word(Keyword::Fresnel) => {
+                    reflection.fresnel = self.switch_value()?;
+                    is_fresnel = reflection.fresnel;
+                }
                 Item::Word(Keyword::Metallic) => reflection.metallic = self.float_or(1.0)?,
                 _ => return Err(self.unexpected(&lexeme, "a part of a reflection")),
             }
         }
-        if reflection.fresnel && second.is_none() {
+        if is_fresnel && second.is_none() {
             reflection.min = [0.0; 3];
         }
         Ok(())
