@@ -1,7 +1,8 @@
 //! A ray and the faces of a shell in double-double: for places where f64 does not tell a crossing from
 //! a miss.
 
-use super::net::FaceNet;
+use super::cell::Cell;
+use super::net::{FaceNet, Homogeneous, half, relative};
 use crate::CentredRay;
 use core::cell::OnceCell;
 use durer_math::{Dd, EFloat};
@@ -18,6 +19,21 @@ pub(super) struct Exact<'a> {
 impl<'a> Exact<'a> {
     pub(super) fn new(at: &'a CentredRay<'a>, faces: &'a [FaceNet], axes: [usize; 3]) -> Self {
         Self { at, faces, ray: OnceCell::new(), axes }
+    }
+
+    /// The control points of the half of a cell that is in the triangle, relative to the cell's base.
+    pub(super) fn half(&self, cell: &Cell) -> Option<Vec<Homogeneous<f64>>> {
+        let FaceNet::Triangle(net) = self.faces.get(cell.face as usize)? else { return None };
+        let to = [0, 1].map(|k| cell.from[k] + cell.width[k]);
+        Some(relative(&net.part(half(cell.from, to)).points, cell.base))
+    }
+
+    /// The control points of a part of a cell, relative to the cell's base.
+    pub(super) fn part(&self, cell: &Cell, from: [f64; 2], width: [f64; 2]) -> Option<Vec<Homogeneous<f64>>> {
+        let in_patch = |k: usize, x: f64| x.mul_add(cell.width[k], cell.from[k]);
+        let low = [0, 1].map(|k| in_patch(k, from[k]));
+        let high = [0, 1].map(|k| in_patch(k, from[k] + width[k]));
+        Some(self.faces.get(cell.face as usize)?.part(low, high).relative(cell.base))
     }
 
     /// The control values over a box of parameters of both functions that vanish at a crossing, times

@@ -294,6 +294,17 @@ impl Found {
         out
     }
 
+    /// Shortens the bracket to what it has in common with another one; `false` if that is nothing.
+    pub(super) fn is_shortened(&mut self, [low, high]: [f64; 2]) -> bool {
+        let (low, high) = (low.max(self.s - self.s_err), high.min(self.s + self.s_err));
+        if low > high {
+            return false;
+        }
+        let (s, half) = (0.5 * (low + high), 0.5 * (high - low));
+        (self.s, self.s_err) = (s, half * (1.0 + 4.0 * U) + U * s.abs());
+        true
+    }
+
     /// Whether it may be in the triangle `u + v <= 1`.
     #[inline(always)]
     fn reaches_triangle(&self) -> bool {
@@ -351,6 +362,32 @@ impl<'a> View<'a> {
             }
         }
         view
+    }
+
+    /// How far a control point's functions and third coordinate, divided by its weight, are off: each of
+    /// its numbers is rounded, and off by what the cell's are.
+    pub(super) fn control_errors(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
+        let (cell, (f, z)) = (self.cell, self.sheared(p));
+        let weight_err =
+            if self.rational { cell.weights[0] / cell.reach.max(f64::MIN_POSITIVE) } else { 0.0 };
+        let rounded = U * p[0].abs().max(p[1].abs()).max(p[2].abs());
+        // The weight that a number is divided by is off, too.
+        let quotient = |x: f64| {
+            if self.rational { (weight_err * cell.e_net / p[3] + 3.0 * U) * x.abs() / p[3] } else { 0.0 }
+        };
+        let e = [0, 1].map(|i| {
+            let own = rounded * (1.0 + self.line.slope[i].abs());
+            ((self.e_control[i] + own) / p[3] + quotient(f[i])) * ROUNDED
+        });
+        let z_err = (cell.e_net * (1.0 + self.o[2].abs() * weight_err) + rounded + U * z.abs()) / p[3];
+        (e, (z_err + self.o_err[2] + quotient(z)) * ROUNDED)
+    }
+
+    /// Parameters of the line between which the third coordinate, counted from the origin, is in a
+    /// range whose ends are off by `z_err` at most.
+    pub(super) fn along(&self, z: [f64; 2], z_err: f64) -> [f64; 2] {
+        let [a, b] = z.map(|z| self.line.along(z, z_err));
+        [(a.0 - a.1).min(b.0 - b.1), (a.0 + a.1).max(b.0 + b.1)]
     }
 
     /// A homogeneous point (or a derivative of it), sheared; and its third coordinate.

@@ -41,6 +41,7 @@ mod seal;
 mod seam;
 mod sewn;
 pub(crate) mod shell;
+mod strip;
 mod subdivide;
 mod subdivision;
 mod surface;

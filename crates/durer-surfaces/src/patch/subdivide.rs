@@ -11,6 +11,7 @@
 use super::cell::{MARGIN, basis, power};
 use super::exact::Exact;
 use super::line::{Found, View, touches};
+use super::strip::{shorten, unresolved};
 use core::ops::{Add, Mul, Sub};
 use durer_math::{Dd, Isa, U};
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
@@ -279,7 +280,7 @@ fn in_double(
                 out.truncate(first);
                 return false;
             }
-            out.push(view.unresolved(part.from, part.width));
+            out.extend(unresolved(view, exact, (part.from, part.width)));
             continue;
         }
         let along = usize::from(part.change(nu, 1) > part.change(nu, 0));
@@ -335,7 +336,7 @@ fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
         f.push(view.sheared(p).0);
     }
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
-    let (mut steps, mut double) = (0, 0);
+    let (mut steps, mut double, first) = (0, 0, out.len());
     while let Some(part) = open.pop() {
         // Beyond the patch; sums of such fractions are exact.
         if cell.is_half && part.from[0] + part.from[1] >= 1.0 {
@@ -382,8 +383,11 @@ fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
         crate::steps::cut();
         if part.is_noise(slow) || steps > MOST_STEPS {
             double += 1;
-            if double > MOST_DOUBLE || !in_double(view, exact, (part.from, part.width), out) {
+            let place = (part.from, part.width);
+            if double > MOST_DOUBLE {
                 out.push(view.unresolved(part.from, part.width));
+            } else if !in_double(view, exact, place, out) {
+                out.extend(unresolved(view, exact, place));
             }
             continue;
         }
@@ -392,6 +396,9 @@ fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
         let [low, high] = part.halves(nu, along);
         open.push(high);
         open.push(low);
+    }
+    if out[first..].iter().any(|f| f.sign == 0) {
+        shorten(view, exact, out, first);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Tests of patches.
 
+mod flat;
+mod poles;
 mod sewn;
 mod triangular;
 mod trims;

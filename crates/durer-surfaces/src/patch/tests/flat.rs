@@ -1,0 +1,138 @@
+//! Flat patches, and lines in their plane. Control points and lines are whole multiples of two vectors,
+//! so that where a line is in the hull of the control points is decided without rounding.
+
+use super::*;
+
+/// A flat patch, and its control points in its plane.
+struct Flat {
+    surface: Box<dyn crate::laws::TestSurface>,
+    base: Point3,
+    axes: [Vec3; 2],
+    points: Vec<[f64; 2]>,
+    /// A point of the patch, in its plane.
+    middle: [f64; 2],
+}
+
+impl Flat {
+    fn new(dice: &mut TestRng) -> Option<Self> {
+        let base = (dice.lattice(8) * 0.25).to_point();
+        let axes = [dice.lattice(3), dice.lattice(3)];
+        let size = [2 + dice.below(3) as usize, 2 + dice.below(3) as usize];
+        let is_triangle = dice.once_in(3);
+        let is_bent = dice.once_in(2);
+        let weighted = dice.once_in(3);
+        let (side, mut points) = (size[0], Vec::new());
+        for j in 0..if is_triangle { side } else { size[1] } {
+            for i in 0..if is_triangle { side - j } else { size[0] } {
+                let moved = if is_bent { dice.lattice(2) * 0.25 } else { Vec3::ZERO };
+                points.push([i as f64 + moved.x, j as f64 + moved.y]);
+            }
+        }
+        let weights: Vec<f64> =
+            points.iter().map(|_| if weighted { dice.pick(&[1.0, 2.0, 0.5]) } else { 1.0 }).collect();
+        let at = |p: &[f64; 2]| base + axes[0] * p[0] + axes[1] * p[1];
+        let net: Vec<[f64; 4]> = points
+            .iter()
+            .zip(&weights)
+            .map(|(p, w)| {
+                let p = at(p);
+                [p.x, p.y, p.z, *w]
+            })
+            .collect();
+        if axes[0].cross(axes[1]) == Vec3::ZERO {
+            return None;
+        }
+        // A corner is a control point.
+        let mut middle = points[0];
+        let surface: Box<dyn crate::laws::TestSurface> = if is_triangle {
+            Box::new(TriangularPatch::rational(side, &net).ok()?)
+        } else {
+            if !weighted && size == [2, 2] {
+                middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() * 0.25);
+            }
+            Box::new(BezierPatch::rational(size, &net).ok()?)
+        };
+        Some(Self { surface, base, axes, points, middle })
+    }
+
+    fn at(&self, [a, b]: [f64; 2]) -> Point3 {
+        self.base + self.axes[0] * a + self.axes[1] * b
+    }
+
+    /// The least and the greatest parameter at which a line in the plane is in the hull: products of
+    /// whole numbers are exact, and so is everything but the quotients.
+    fn extent(&self, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
+        let seen: Vec<[f64; 2]> = self
+            .points
+            .iter()
+            .map(|p| [(p[0] - a) * d - (p[1] - b) * c, (p[0] - a) * c + (p[1] - b) * d])
+            .collect();
+        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+        for [g, z] in &seen {
+            for [h, y] in &seen {
+                if *g >= 0.0 && *h <= 0.0 {
+                    let at = if *g == *h { *z } else { (g * y - h * z) / (g - h) };
+                    let t = at / (c * c + d * d);
+                    ends = [ends[0].min(t), ends[1].max(t)];
+                }
+            }
+        }
+        (ends[0] <= ends[1]).then_some(ends)
+    }
+}
+
+/// Brackets reach no farther beyond the hull than those of crossings are wide, in ulp: lines come to its
+/// edges at angles whose sines are above 1/1000.
+const MOST: f64 = 64.0;
+
+/// Brackets of lines in the plane of a flat patch are within the hull of its control points but for some
+/// roundings, and a ray that ends before the hull meets nothing.
+#[test]
+fn lines_in_the_plane_of_a_flat_patch_meet_it_within_its_hull() {
+    let (mut lines, mut uncertain, mut worst, mut early) = (0_u64, 0, 0.0_f64, 0);
+    for case in drawn(150) {
+        let mut dice = crate::laws::dice(83, case);
+        let Some(flat) = Flat::new(&mut dice) else { continue };
+        for _ in 0..20 {
+            let direction = [dice.integer(-3, 3), dice.integer(-3, 3)];
+            let start = if dice.once_in(2) {
+                let back = dice.pick(&[8.0, 16.0, 1024.0, 1048576.0]);
+                [0, 1].map(|k| flat.middle[k] - back * direction[k])
+            } else {
+                [dice.integer(-32, 64) / 8.0, dice.integer(-32, 64) / 8.0]
+            };
+            let d = flat.axes[0] * direction[0] + flat.axes[1] * direction[1];
+            if d == Vec3::ZERO {
+                continue;
+            }
+            let ray = Ray::new(flat.at(start), d).with_range(-1e9, 1e9);
+            let roots = all_roots(&*flat.surface, &ray);
+            let told = || format!("{case}: {start:?} {direction:?} {roots:?} {ray:?}");
+            lines += 1;
+            let Some([low, high]) = flat.extent(start, direction) else {
+                early += u64::from(!roots.is_empty());
+                assert!(roots.is_empty(), "beside the hull: {}", told());
+                continue;
+            };
+            let size = flat.surface.bounds().magnitude().max(ray.origin.to_vec().max_abs());
+            let unit = 2.0 * U * low.abs().max(high.abs()).max(size / d.max_abs());
+            for root in &roots {
+                uncertain += u64::from(root.kind != RootKind::Simple);
+                worst = worst.max((low - root.lo) / unit).max((root.hi - high) / unit);
+            }
+            let far = low.abs().max(1.0);
+            for k in (1..60).step_by(4) {
+                let t_max = low - far * durer_math::scale::pow2(-k);
+                let ray = Ray::new(ray.origin, d).with_range(-1e9, t_max);
+                if (low - t_max) / unit > MOST {
+                    early += u64::from(!all_roots(&*flat.surface, &ray).is_empty());
+                }
+            }
+        }
+    }
+    println!("{lines} lines, {uncertain} uncertain, {worst} ulp, {early} early");
+    assert!(worst <= MOST, "{worst}");
+    assert_eq!(early, 0);
+    assert!(uncertain > 500);
+    report(lines);
+}
