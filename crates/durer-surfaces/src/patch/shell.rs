@@ -447,11 +447,16 @@ impl Shell {
                 match found[..kept].iter().position(same) {
                     Some(k) => {
                         let old = &mut found[k];
-                        let known = old.face != new.face || is_held(&new, old) || is_held(old, &new);
-                        if old.sign == 0 || !known {
+                        let is_other = old.face != new.face;
+                        let known = is_other || is_held(&new, old) || is_held(old, &new);
+                        // Beside a crease an unproven bracket may hold more crossings than the other
+                        // side's. Of a closed surface alternation tells.
+                        let is_open = !self.is_closed && self.seal == 0.0;
+                        let more = is_open && is_other && new.sign == 0 && !new.is_zero;
+                        if old.sign == 0 || !known || more {
                             // Nothing says whether that is one crossing or two.
                             *old = old.joined(&new);
-                        } else if new.sign != 0 && old.face != new.face {
+                        } else if new.sign != 0 && is_other {
                             *old = old.united(&new, |f| self.has_on_edge(f));
                         } else if new.sign != 0 && new.s_err < old.s_err {
                             // Of two proofs the sharper one is kept.

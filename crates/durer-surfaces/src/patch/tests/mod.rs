@@ -1,5 +1,6 @@
 //! Tests of patches.
 
+mod creases;
 mod flat;
 mod poles;
 mod sewn;
