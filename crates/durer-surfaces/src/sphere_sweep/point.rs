@@ -18,7 +18,72 @@ const TINY: f64 = durer_math::scale::pow2(-500);
 /// on which side of a crossing's bracket the start is.
 const CLEAR: f64 = 256.0 * U;
 
+/// How far a double tip may be from the origin of the frame it is placed in, in units: within that rays
+/// start on the side that they are told to.
+const FAR: f64 = durer_math::scale::pow2(10);
+/// No start from a tip is farther from it than this, in units.
+const FARTHEST: f64 = durer_math::scale::pow2(-20);
+
+/// How rays leave a point `y` of the surface, in units: to `y + off n` and to `y - off n`, and from any
+/// place within `slack` of `y`.
+#[derive(Clone, Copy, Debug)]
+struct Leave {
+    y: Vec3,
+    n: Vec3,
+    off: f64,
+    slack: f64,
+}
+
 impl SphereSweep {
+    /// How rays leave the tip of a cone that opens by `sine`, the sine of half its angle. The way out is
+    /// along the axis, unless there is another cone on the other side of the tip: the radius changes its
+    /// sign, or two pieces meet there.
+    ///
+    /// Then no direction leads out of both cones whose opposite leads into one. But the sides of a start
+    /// are those of points: `y` moves to the middle between a point within, on the axis at a distance
+    /// `L`, and one outside, across the axis at `L`. They are `L sine` and `L cosine` from the cone, eight
+    /// times as far as starts are off by. Their sides are decided exactly.
+    #[cold]
+    #[inline(never)]
+    fn past_tip<const K: usize, const M: usize>(
+        &self,
+        basis: &Basis<K, M>,
+        tip: Leave,
+        sine: f64,
+        room: f64,
+    ) -> Leave {
+        let is = |p: Vec3, side: Ordering| {
+            let exact = [p.x, p.y, p.z].map(Dyadic::from);
+            self.exact_side(basis, &exact, &Dyadic::from(1.0), (p, Vec3::ZERO)) == side
+        };
+        if is(tip.y + tip.n * tip.off, Ordering::Greater) {
+            return tip;
+        }
+        let (e1, e2) = tangents(tip.n);
+        let slack = (16.0 * U * FAR).max(tip.slack).max(room);
+        let open = sine.min((1.0 - sine * sine).sqrt());
+        let mut way = tip.off.max(8.0 * slack / open);
+        while way <= FARTHEST {
+            let inside = tip.y - tip.n * way;
+            if is(inside, Ordering::Less) {
+                for tilt in [0.0, 0.5, -0.5] {
+                    for (a, b) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                        let across = e1 * f64::from(a) + e2 * f64::from(b) + tip.n * tilt;
+                        let outside = tip.y + across * (way / across.length());
+                        if is(outside, Ordering::Greater) {
+                            let apart = outside - inside;
+                            let length = apart.length();
+                            let (y, n) = (inside + apart * 0.5, apart * (1.0 / length));
+                            return Leave { y, n, off: 0.5 * length, slack };
+                        }
+                    }
+                }
+            }
+            way *= 4.0;
+        }
+        tip
+    }
+
     /// The side of a point in units, each coordinate of which is known within `e`: the sign of the
     /// least `|y - c|² - r²`, if it is certain.
     #[inline(always)]
@@ -185,6 +250,9 @@ impl SphereSweep {
             let step = -0.5 * p1.v / p2.v;
             if p2.v > 0.0 && step.abs() < 1.0 / 64.0 {
                 x = (x + step).clamp(-1.0, 1.0);
+            } else if 1.0 - x.abs() < durer_math::scale::pow2(-20) && p1.v * x < 0.0 {
+                // The ball at the end is nearer than all before it.
+                x = x.signum();
             }
         }
         let (c, signed, c1, r1) = curve.place(x);
@@ -228,26 +296,35 @@ impl SphereSweep {
         let tau = scale2(p.to_vec().max_abs(), -self.scale) * (6.0 * U) + TINY;
         let eta = lost.x + lost.y + lost.z + 16.0 * U * (1.0 + y.abs().max_abs());
         let clear = (CLEAR * (1.0 + y.abs().max_abs())).min(r / 128.0);
-        let mut off = 2.0 * eta + clear + bend.min(1.0 / tau) * tau * tau + 2.0 * dip;
+        let off = 2.0 * eta + clear + bend.min(1.0 / tau) * tau * tau + 2.0 * dip;
         // Next to the tip of a cone the way out is along the axis, and the way in is as long as the
         // cone must be to be wider than all errors.
         let (way, opens) = (c1.length(), r1.abs());
-        let n = if r <= 64.0 * off && opens > 0.0 && opens < way {
-            off = (off + 8.0 * (eta + tau + r) * (way / opens)).min(durer_math::scale::pow2(-20));
-            c1 * (if r1 > 0.0 { -1.0 } else { 1.0 } / way)
+        let mut leave = Leave { y, n, off, slack: off / 64.0 };
+        if r <= 64.0 * off && opens > 0.0 && opens < way {
+            let off = (off + 8.0 * (eta + tau + r) * (way / opens)).min(durer_math::scale::pow2(-20));
+            let n = c1 * (if r1 > 0.0 { -1.0 } else { 1.0 } / way);
+            leave = self.past_tip(basis, Leave { y, n, off, slack: off / 64.0 }, opens / way, eta + tau);
+        }
+        let Leave { y: start, n, off, slack } = leave;
+        // What a double tip moves the point by.
+        let moved = start - y;
+        let p = p + moved.map(|x| scale2(x, self.scale));
+        let moved = if moved == Vec3::ZERO {
+            moved
         } else {
-            n
+            moved.abs() * (1.0 + 8.0 * U) + Vec3::new(tau, tau, tau)
         };
         let back = |x: f64| scale2(x, self.scale);
         let is_tip = (bend * off).is_nan() || bend * off > 1.0 / 64.0;
         let mut point = SurfacePoint::new(
             p,
-            dp.map(|x| back(x) + f64::MIN_POSITIVE),
+            (dp + moved).map(|x| back(x) + f64::MIN_POSITIVE),
             back(off) + least_step(p),
             n.to_normal(),
         );
         (point.bend, point.slack) =
-            if is_tip { (f64::INFINITY, back(off / 64.0)) } else { (scale2(bend, -self.scale), 0.0) };
+            if is_tip { (f64::INFINITY, back(slack)) } else { (scale2(bend, -self.scale), 0.0) };
 
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             const TURN: f64 = 2.0 * core::f64::consts::PI;

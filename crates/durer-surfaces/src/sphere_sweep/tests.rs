@@ -171,9 +171,10 @@ fn check(sweep: &SphereSweep, ray: &Ray, counts: &mut Counts) -> Result<(), Stri
             return Err(format!("{from} to {to} is missing: {}", told()));
         }
     }
-    for pair in found.windows(2) {
-        let gap = 0.5 * (pair[0].1 + pair[1].0);
-        if pair[0].1 < gap && gap < pair[1].0 && exact_side(sweep, &at(gap)).is_lt() {
+    for pair in solid.windows(2).filter(|pair| pair[0].sign > 0) {
+        // Where brackets do not tell.
+        let gap = 0.5 * (pair[0].t + pair[1].t);
+        if pair[0].hi < gap && gap < pair[1].lo && exact_side(sweep, &at(gap)).is_lt() {
             return Err(format!("{gap} is inside: {}", told()));
         }
     }
@@ -426,4 +427,104 @@ fn a_line_of_points_and_bad_numbers_are_refused() {
     assert!(matches!(far, Err(SphereSweepError::Centre { sphere: 1, .. })), "{far:?}");
     let large = new(linear, &[[0.0; 4], [1e300, 0.0, 0.0, 1.0]]);
     assert_eq!(large, Err(SphereSweepError::TooLarge(1e300)));
+}
+
+/// Sweeps whose radius changes its sign, or is zero for a moment: two cones with a common tip. The tips,
+/// and the directions of both cones there.
+fn with_double_tips() -> Vec<(SphereSweep, Point3, [Vec3; 2])> {
+    let linear = |s: &[[f64; 4]]| SphereSweep::new(SweepSpline::Linear, s).unwrap();
+    let b = |s: &[[f64; 4]]| SphereSweep::new(SweepSpline::BSpline, s).unwrap();
+    let cubic = |s: &[[f64; 4]]| SphereSweep::new(SweepSpline::Cubic, s).unwrap();
+    let both = |x: f64, y: f64, z: f64| [Vec3::new(x, y, z), Vec3::new(-x, -y, -z)];
+    let straight = |r: f64| [-3.0, -1.0, 1.0, 3.0].map(|x: f64| [2.0 * x, x, 0.5 * x, r * x]);
+    let bent = [Vec3::new(-1.0, 0.0, 0.0), Vec3::new(0.25, 1.0, 0.5)];
+    let knee = |r: f64| linear(&[[-2.0, 0.0, 0.0, r], [0.0; 4], [0.5, 2.0, 1.0, r]]);
+    vec![
+        (linear(&[[-2.0, 0.0, 0.0, 1.0], [2.0, 0.0, 0.0, -1.0]]), Point3::ORIGIN, both(1.0, 0.0, 0.0)),
+        (linear(&[[-2.0, 1.0, 0.0, 0.125], [2.0, -1.0, 0.0, -0.125]]), Point3::ORIGIN, both(2.0, -1.0, 0.0)),
+        (linear(&[[-2.0, 1.0, 0.0, 2.0], [2.0, -1.0, 0.0, -2.0]]), Point3::ORIGIN, both(2.0, -1.0, 0.0)),
+        (b(&straight(0.5)), Point3::ORIGIN, both(2.0, 1.0, 0.5)),
+        (cubic(&straight(-0.25)), Point3::ORIGIN, both(2.0, 1.0, 0.5)),
+        (knee(0.5), Point3::ORIGIN, bent),
+        (knee(1.0), Point3::ORIGIN, bent),
+        (
+            linear(&[[1.0, 2.0, 3.0, 0.75], [2.0, 2.5, 3.0, 0.0], [3.0, 3.0, 3.0, 0.25]]),
+            Point3::new(2.0, 2.5, 3.0),
+            both(2.0, 1.0, 0.0),
+        ),
+    ]
+}
+
+/// A ray that leaves the surface at a double tip starts on the side that it is told to, and whatever the
+/// side, its crossings are those of the exact ray.
+#[test]
+fn rays_that_leave_a_double_tip_start_on_their_side() {
+    let (mut counts, mut rays, mut placed_starts) = (Counts::default(), 0, 0);
+    let (mut broken, mut near) = (vec![], 0);
+    for (seed, (sweep, tip, ways)) in with_double_tips().iter().enumerate() {
+        let size = sweep.bounds().widths().max_abs();
+        for i in laws::drawn(60) {
+            let mut dice = laws::dice(1200 + seed as u64, i);
+            let off = dice.vector() * dice.pick(&[0.0, 1.0]) * dice.scale(-60, -20);
+            let direction = match dice.below(4) {
+                0 => dice.vector(),
+                1 => dice.lattice(3),
+                2 => dice.pick(ways) + dice.vector() * dice.scale(-50, -2),
+                _ => dice.pick(ways).cross(dice.vector()),
+            };
+            let back = dice.pick(&[1.0, 4.0, 64.0]);
+            let ray = Ray::new(*tip + off - direction * back, direction)
+                .with_range(f64::NEG_INFINITY, f64::INFINITY);
+            if !ray.is_valid() {
+                continue;
+            }
+            rays += 1;
+            if let Err(e) = check(sweep, &ray, &mut counts) {
+                broken.push(format!("{seed} {i}: {e}"));
+            }
+            // Where the sweep is placed somewhere else, too.
+            let map = dice.map();
+            let placed = Placed::new(sweep.clone(), map);
+            let there = Ray::new(map.point(ray.origin), map.vector(ray.direction));
+            if !there.is_valid() {
+                continue;
+            }
+            let local = LocalRay::new(&there);
+            for root in all_roots(&placed, &there).iter().filter(|r| r.kind == RootKind::Simple) {
+                let point = placed.resolve(&local, root, Need::ALL);
+                for (side, wanted) in [(RaySide::Front, Side::Out), (RaySide::Back, Side::In)] {
+                    let start = point.spawn_from(side, there.direction);
+                    let is = placed.side(&LocalPoint::new(start.origin));
+                    // So far away, or stretched so much, rounding is larger than what a tip leaves.
+                    let is_far = map.inverse_norm() * point.p.to_vec().max_abs() > 512.0 * size
+                        || map.inverse_norm() * map.linear_norm() > 16.0;
+                    if is != wanted && !is_far {
+                        broken.push(format!("{seed} {i}: placed {side:?} starts {is:?} {point:?} {map:?}"));
+                    }
+                    near += u32::from(!is_far);
+                    // The exact side of the start decides in any case.
+                    let mut sink = crate::All::default();
+                    placed.roots(&LocalRay::new(&start).from_side(Some(side)), &mut sink);
+                    let first = sink.roots.iter().find(|r| r.sign != 0).map(|r| r.sign > 0);
+                    if first.unwrap_or(false) != (is == Side::In) {
+                        broken.push(format!(
+                            "{seed} {i}: {side:?} from {is:?} meets {:?} {start:?} {map:?}",
+                            sink.roots
+                        ));
+                    }
+                    placed_starts += 1;
+                }
+            }
+        }
+    }
+    laws::report(rays);
+    println!(
+        "{rays} rays, {} roots, {placed_starts} starts, {near} near, {} broken",
+        counts.roots,
+        broken.len()
+    );
+    for b in broken.iter().take(40) {
+        println!("{}", b.chars().take(2500).collect::<String>());
+    }
+    assert!(broken.is_empty());
 }

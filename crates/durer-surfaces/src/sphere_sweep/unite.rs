@@ -351,12 +351,13 @@ fn is_beyond<const K: usize, const M: usize>(
             // Nothing proves that a touch is beyond.
             return false;
         }
-        let is_out = match (end, at.spawned()) {
-            (End::Min, Some((side, ..))) => side == RaySide::Front,
-            _ => match sweep.side_at(basis, at, end) {
-                Some(Ordering::Equal) | None => return false,
-                Some(side) => side == Ordering::Greater,
-            },
+        // Also of a ray that leaves the surface: next to a double tip it may have been told wrongly.
+        let side = sweep.side_at(basis, at, end);
+        let is_out = match (side, end, at.spawned()) {
+            (Some(Ordering::Greater), ..) => true,
+            (Some(Ordering::Less), ..) => false,
+            (_, End::Min, Some((side, ..))) => side == RaySide::Front,
+            _ => return false,
         };
         is_out == ((sign > 0) == (end == End::Min))
     };
