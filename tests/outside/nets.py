@@ -11,7 +11,7 @@ from functools import cmp_to_key
 from math import comb, lcm
 
 from exact import Number, sign
-from patches import Patch, Tangents, is_flat
+from patches import Patch, Tangents
 from shapes import Answer, Event, cross, dot, sub, text, times, vec
 from solids import at
 from zero_sets import near
@@ -270,6 +270,12 @@ def bernstein_at(n, t):
     return values, slopes
 
 
+def is_flat(tangents, d, bits):
+    """Whether a direction is in the patch's plane, but for an angle of about 2^-bits."""
+    top = lambda v: max(map(abs, v))
+    return abs(dot(tangents.normal, d)) * (1 << bits) <= top(tangents.normal) * top(d)
+
+
 def outside(x, slack):
     return x < -slack
 
@@ -366,7 +372,7 @@ class Net(Patch):
             self.beside = self.last[3]
             return self.last[1]
         self.within = False
-        slack = self.slack(ray) * self.size
+        slack = 4 * self.error(ray)
         d = tuple(F(x, ray[2]) for x in ray[1])
         top = lambda a: max(map(abs, a))
         raw, tiny = [], F(1, 1 << 180)

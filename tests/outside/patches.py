@@ -52,10 +52,10 @@ class Quotient(Image):
 
 
 class Tangents:
-    """The normal at a place of a patch, and how it changes with the point."""
+    """The normal at a place of a patch, how it changes with the point, and whether a crossing there may be told without proof."""
 
-    def __init__(self, normal, bend):
-        self.normal, self.bent = normal, bend
+    def __init__(self, normal, bend, is_open=False):
+        self.normal, self.bent, self.is_open = normal, bend, is_open
 
     def gradient(self, _):
         return self.normal
@@ -64,10 +64,41 @@ class Tangents:
         return self.bent
 
 
-def is_flat(tangents, d, bits):
-    """Whether a direction is in the patch's plane, but for an angle of about 2^-bits."""
-    top = lambda v: max(map(abs, v))
-    return abs(dot(tangents.normal, d)) * (1 << bits) <= top(tangents.normal) * top(d)
+# The unit of roundings.
+U = F(1, 1 << 53)
+# How many roundings a function of the command makes, each of a length that is not larger than those in `Patch.error`. One of a control point and 40 of a sum of 5 by 5 Bernstein
+# polynomials count twice, as the ray is sheared (the slope is 1 at most), and 1.2 times, as parts are evaluated a little beyond their edges: 98.4. The differences and products of
+# the shear round 8 times; three numbers of a map and of its inverse, and the re-centred origin, 16 times.
+ROUNDINGS = 128
+# Nothing is searched farther beyond an edge, in parameters: the command's bounds hold there (docs/numerics.md).
+MARGIN = F(1, 16)
+
+
+class Doubt:
+    """What rounding leaves open at a crossing, from the slopes there of both functions F of u and v that vanish on the ray (all three coordinates, less those of the ray where the
+    largest one of its direction is the same).
+
+    Let Y be the inverse of the slopes, `error` the error of F and h a bound on |F_uu| + 2 |F_uv| + |F_vv|. Newton's method ends with a step of at most 2 e, e = |Y| error. Krawczyk's
+    test in a box of half-width r = 4 (step + e) <= 12 e proves the crossing if slopes change in it by less than half of themselves, c = r |Y| h <= 1/2; the bound on second derivatives
+    holds a part's margin too, and may be four times that of the place. It is then within e + c r of the place that is told, which counts if that may be on the patch. So a
+    crossing may be told that is 2 (e + c r) beyond an edge; one as far before it is within rounding of the edge.
+    """
+
+    def __init__(self, slopes, d, error, h):
+        k = max(range(3), key=lambda i: abs(d[i]))
+        (a, b), (c, e) = [[s[i] - d[i] / d[k] * s[k] for s in slopes] for i in range(3) if i != k]
+        det = abs(a * e - b * c)
+        rates = [(abs(e) + abs(b)) / det, (abs(a) + abs(c)) / det] if det else [1 / error] * 2
+        r = 12 * max(rates) * error
+        change = r * max(rates) * 4 * h
+        self.is_open = not det or 2 * change > 1
+        # Parameters round, too.
+        self.slack = [min(MARGIN, 2 * (rate * error + min(change, F(1, 2)) * r) + 16 * U) for rate in rates]
+
+
+def size_of(p):
+    """A bound on a polynomial where its unknown is within the margin of [0, 1]."""
+    return sum(abs(a) * (1 + MARGIN) ** k for k, a in enumerate(p))
 
 
 class Patch(Region):
@@ -91,11 +122,8 @@ class Patch(Region):
         flip = -1 if self.inverse else 1
         events = []
         self.met = [(t, n) for group in groups for t, n, _, _ in group]
-        d = tuple(F(x, ray[2]) for x in ray[1])
         for group in groups:
             for t, normal, on_border, turn in group:
-                # Within the patch's own plane but for some rounding errors.
-                on_border |= normal is not None and is_flat(normal, d, 44)
                 event = Event(t, flip * turn, [(normal, flip)] if normal else [], self)
                 event.optional = on_border
                 events.append(event)
@@ -105,18 +133,16 @@ class Patch(Region):
         return False
 
     def is_tangent(self, ray, lo, hi):
-        """Whether a ray is in the patch's plane next to a cluster but for an angle of 2^-18, or comes and goes as near as the cluster is wide."""
-        lo, hi = F(lo), F(hi)
-        wide = hi - lo + self.size / max(abs(F(x, ray[2])) for x in ray[1]) / (1 << 30)
-        near_ = lambda t: lo - 2 * wide <= t <= hi + 2 * wide
-        d = tuple(F(x, ray[2]) for x in ray[1])
-        return any(near_(t) for t in self.low_places(ray)) or any(near_(t.rational(100)) and (n is None or is_flat(n, d, 18)) for t, n, _, _ in self.meetings(ray))
+        """Whether a crossing that may not be proven, or a place where two of them come and go, is in a cluster's bracket: that holds all that is open, but for the error along the ray."""
+        wide = self.error(ray) / max(abs(F(x, ray[2])) for x in ray[1])
+        near_ = lambda t: F(lo) - wide <= t <= F(hi) + wide
+        return any(near_(t) for t in self.low_places(ray)) or any(near_(t.rational(100)) and (n is None or n.is_open) for t, n, _, _ in self.meetings(ray))
 
-    def slack(self, ray):
-        """How far beyond its border, in its parameters, a patch may be met: some rounding errors of the numbers on the way there and back."""
+    def error(self, ray):
+        """How far off the command may count points of the patch and the ray to be: roundings of the numbers on the way there and back."""
         stretch = max(abs(x) for row in self.whole.rows for x in row) * max(abs(F(x, self.whole.w)) for row in self.whole.n for x in row)
         moved = max(abs(F(dot(row, self.whole.c))) / self.whole.w for row in self.whole.n)
-        return F(1, 1 << 44) * stretch * (1 + (moved + max(abs(F(x, ray[2])) for x in ray[0])) / self.size)
+        return ROUNDINGS * U * stretch * (self.size + moved + max(abs(F(x, ray[2])) for x in ray[0]))
 
 
 def bernstein(rows):
@@ -133,6 +159,9 @@ class Ruled(Patch):
         self.last = last
         self.a = [bernstein([F(p[i]) for p in first]) for i in range(3)]
         self.b = [minus(bernstein([F(p[i]) for p in last]), c) for i, c in enumerate(self.a)]
+        uu = max(size_of(slope(slope(a))) + (1 + MARGIN) * size_of(slope(slope(b))) for a, b in zip(self.a, self.b))
+        # Of the sheared functions, twice.
+        self.second = 2 * (uu + 2 * max(size_of(slope(b)) for b in self.b))
 
     def equations(self, ray):
         x, d, w = ray
@@ -161,10 +190,9 @@ class Ruled(Patch):
             self.within = True
             return []
         out = []
-        slack = self.slack(ray)
-        border_of = lambda u: u.against(slack) <= 0 or u.against(1 - slack) >= 0
+        error, within = self.error(ray), lambda x, far: x.against(-far) >= 0 >= x.against(1 + far)
         for u in found:
-            if not u.against(-slack) >= 0 >= u.against(1 + slack):
+            if not within(u, MARGIN):
                 continue
             place = self.place(o, d, k, pairs, u)
             if place is None:
@@ -172,14 +200,16 @@ class Ruled(Patch):
                 self.within |= all(u.sign_of(whole(a)) == 0 for a, _ in pairs)
                 continue
             v, t = Quotient(u, *place[0]), Quotient(u, *place[1])
-            if v.against(-slack) >= 0 >= v.against(1 + slack):
-                # An edge that is one point is a border all around it.
-                tip = len(set(self.last)) == 1 and v.against(1 - F(1, 1 << 20)) >= 0
-                border = border_of(u) or border_of(v) or tip
-                normal, bend = self.normal(u.rational(200), v.rational(200))
+            if not within(v, MARGIN):
+                continue
+            at_ = u.rational(200), v.rational(200)
+            doubt = Doubt(self.slopes(*at_), d, error, self.second)
+            if all(within(x, far) for x, far in zip((u, v), doubt.slack)):
+                border = any(not within(x, -far) for x, far in zip((u, v), doubt.slack))
+                normal, bend = self.normal(*at_)
                 turn = 0 if u.before == u.after else sign(dot(normal, d))
                 # An edge that is one point has no normal.
-                out.append((t, Tangents(normal, bend) if any(normal) and not tip else None, border or not any(normal), turn))
+                out.append((t, Tangents(normal, bend, doubt.is_open) if any(normal) else None, border or not any(normal), turn))
         return out
 
     def low_places(self, ray):
@@ -189,9 +219,11 @@ class Ruled(Patch):
             if place:
                 yield Quotient(u, *place[1]).rational(100)
 
+    def slopes(self, u, v):
+        return [at(slope(a), u) + v * at(slope(b), u) for a, b in zip(self.a, self.b)], [at(b, u) for b in self.b]
+
     def normal(self, u, v):
-        su = [at(slope(a), u) + v * at(slope(b), u) for a, b in zip(self.a, self.b)]
-        sv = [at(b, u) for b in self.b]
+        su, sv = self.slopes(u, v)
         suu = [at(slope(slope(a)), u) + v * at(slope(slope(b)), u) for a, b in zip(self.a, self.b)]
         suv = [at(slope(b), u) for b in self.b]
         n = cross(su, sv)
@@ -207,6 +239,13 @@ class Graph(Patch):
     def __init__(self, body, terms, spans, inside, points, directions, size):
         super().__init__(body, points, directions, size)
         self.terms, self.spans, self.inside = terms, spans, inside
+        along_u = lambda rows: [[i * a for a in row] for i, row in enumerate(rows)][1:] or [[F(0)]]
+        along_v = lambda rows: [slope(row) or [F(0)] for row in rows]
+        (_, k), (_, l) = spans
+        self.steep = [[scaled(F(1, k), row) for row in along_u(terms)], [scaled(F(1, l), row) for row in along_v(terms)]]
+        top = lambda rows: size_of([size_of(row) for row in rows])
+        # Of the sheared functions, twice.
+        self.second = 2 * (top(along_u(along_u(terms))) + 2 * top(along_u(along_v(terms))) + top(along_v(along_v(terms))))
 
     def along(self, ray):
         x, y, z = places(ray)
@@ -228,21 +267,33 @@ class Graph(Patch):
             self.within = True
             return []
         out = []
-        slack = [self.slack(ray)]
+        error, d = self.error(ray), tuple(F(x, ray[2]) for x in ray[1])
         for t in found:
-            if all(t.sign_of(whole(plus(p, slack))) >= 0 for p in self.inside(u, v)):
-                signs = [max(0, t.sign_of(whole(minus(p, slack)))) for p in self.inside(u, v)]
-                normal, bend = self.normal(at(u, t.rational(200)), at(v, t.rational(200)))
-                out.append((t, Tangents(normal, bend), 0 in signs, (t.after > 0) - (t.after < 0) if t.before != t.after else 0))
+            if not all(t.sign_of(whole(plus(p, [2 * MARGIN]))) >= 0 for p in self.inside(u, v)):
+                continue
+            at_ = at(u, t.rational(200)), at(v, t.rational(200))
+            doubt = Doubt(self.slopes(*at_), d, error, self.second)
+            a, b = doubt.slack
+            slack = (a, a, b, b) if len(self.inside(u, v)) == 4 else (a, b, a + b)
+            if all(t.sign_of(whole(plus(p, [far]))) >= 0 for p, far in zip(self.inside(u, v), slack)):
+                border = any(t.sign_of(whole(minus(p, [far]))) <= 0 for p, far in zip(self.inside(u, v), slack))
+                normal, bend = self.normal(*at_)
+                out.append((t, Tangents(normal, bend, doubt.is_open), border, (t.after > 0) - (t.after < 0) if t.before != t.after else 0))
         return out
 
     def is_tangent(self, ray, lo, hi):
-        """Also where it is flat and the line as good as in it."""
-        poly = self.along(ray)[2]
-        return all(abs(at(poly, F(t))) * (1 << 40) <= self.size for t in (lo, hi)) or super().is_tangent(ray, lo, hi)
+        """Also where the line is in it but for rounding: values below eight errors are as good as none to the command, and their own error is a ninth. A height is a sheared function of
+        the patch and its slopes times another one."""
+        poly, steep = self.along(ray)[2], 1 + sum(size_of([size_of(p) for p in self.steep[i]]) for i in (0, 1))
+        return all(abs(at(poly, F(t))) <= 9 * steep * self.error(ray) for t in (lo, hi)) or super().is_tangent(ray, lo, hi)
 
     def low_places(self, ray):
         return [t.rational(100) for t in real_roots(whole(slope(self.along(ray)[2]))) or []]
+
+    def slopes(self, u, v):
+        (_, k), (_, l) = self.spans
+        value = lambda rows: at([at(row, v) for row in rows], u)
+        return (F(k), k * value(self.steep[0]), F(0)), (F(0), l * value(self.steep[1]), F(l))
 
     def normal(self, u, v):
         def d(i, j):
