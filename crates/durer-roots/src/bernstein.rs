@@ -231,6 +231,11 @@ impl<const N: usize> Bernstein<f64, N> {
     }
 }
 
+/// The binomial coefficient `n` over `k`, exact while it is below 2^53.
+pub fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -18,9 +18,9 @@
 //! and |a - d| about (c, 0), the plane z = 0 in circles of radii d - c about (a, 0) and d + c about
 //! (-a, 0).
 
+use crate::faces::chart::{Chart, Frame, tangents};
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame, tangents};
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,

@@ -1,6 +1,5 @@
 //! Half-spaces with uncertain planes, and a box around what several of them have in common.
 
-use crate::Plane;
 use durer_math::{Aabb, Affine, Interval, Point3, Vec3};
 
 /// A half-space `{ p : n . p <= h }` for some `n` in `normal` and `h` in `distance`.
@@ -23,10 +22,9 @@ impl HalfSpace {
     /// of their number.
     const MOST: usize = 32;
 
-    /// The half-space behind a plane.
-    pub(crate) fn behind(plane: &Plane) -> Self {
-        let n = plane.normal();
-        Self { normal: [n.x, n.y, n.z].map(Interval::from), distance: plane.offset_bounds() }
+    /// The half-space `n . p <= h` of a normal and a distance that are known within intervals.
+    pub(crate) fn new(normal: [Interval; 3], distance: Interval) -> Self {
+        Self { normal, distance }
     }
 
     /// The half-space on the other side of the same plane.
@@ -153,10 +151,10 @@ fn adjugate(m: &[[Interval; 3]; 3]) -> ([[Interval; 3]; 3], Interval) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Accelerate, DynSurface, Placed};
+    use crate::{Accelerate, DynSurface, Placed, Plane};
 
     fn plane(x: f64, y: f64, z: f64, h: f64) -> HalfSpace {
-        HalfSpace::behind(&Plane::new(Vec3::new(x, y, z), h).unwrap())
+        Plane::new(Vec3::new(x, y, z), h).unwrap().half_space().unwrap()
     }
 
     /// How far a box reaches beyond another one.

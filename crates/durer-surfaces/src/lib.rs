@@ -51,7 +51,9 @@ mod corpus;
 pub mod cyclide;
 pub mod disc;
 mod edges;
+pub mod faces;
 mod facet;
+mod fill_rule;
 pub mod half_space;
 pub mod ifs;
 pub mod implicit;
@@ -74,6 +76,7 @@ pub mod prism;
 pub mod quadric;
 mod ray;
 pub mod revolution;
+mod root;
 mod sink;
 pub mod sor;
 pub mod sphere;
@@ -99,9 +102,11 @@ pub use crate::compose::dynamic::DynSurface;
 pub use crate::compose::region::{Region, RegionError};
 pub use crate::cyclide::{Cyclide, CyclideError};
 pub use crate::disc::{Disc, DiscError};
+pub use crate::faces::extent::QuadricExtent;
+pub use crate::fill_rule::FillRule;
 pub use crate::half_space::HalfSpace;
 pub use crate::ifs::{Ifs, IfsError, IfsLeaf};
-pub use crate::implicit::deform::{DeformError, Lattice, Warp};
+pub use crate::implicit::deform::{DeformError, DeformStep, Lattice, Warp};
 pub use crate::implicit::level_set::LevelSet;
 pub use crate::implicit::{Container, Isosurface, IsosurfaceError, SuperellipsoidError, superellipsoid};
 pub use crate::julia::{Julia, JuliaAlgebra, JuliaError, JuliaPower, JuliaSet};
@@ -110,8 +115,7 @@ pub use crate::mesh::{FLAT, Mesh, MeshData, MeshError};
 pub use crate::ovus::OvusError;
 pub use crate::parallelogram::{Parallelogram, ParallelogramError};
 pub use crate::parametric::{
-    DeformSource, DeformStep, DeformedSurface, Parametric, ParametricError, PathSpline, PathSweep, SweepData,
-    SweepError,
+    DeformSource, DeformedSurface, Parametric, ParametricError, PathSpline, PathSweep, SweepData, SweepError,
 };
 pub use crate::patch::{
     BezierPatch, Boundary, Nurbs, NurbsData, NurbsError, PatchError, Scheme, Sewn, SewnData, SewnError,
@@ -120,14 +124,13 @@ pub use crate::patch::{
 };
 pub use crate::plane::{Plane, PlaneError};
 pub use crate::point::SurfacePoint;
-pub use crate::polygon::{FillRule, Polygon, PolygonError};
+pub use crate::polygon::{Polygon, PolygonError};
 pub use crate::prism::curved::{Bezier, CurvedPrism, Spline};
 pub use crate::prism::{Prism, PrismError, StraightPath, StraightPathError};
 pub use crate::quadric::axial::{Axial, AxialError};
 pub use crate::quadric::cone::Cone;
 pub use crate::quadric::cylinder::{EllipticCylinder, HyperbolicCylinder, ParabolicCylinder};
 pub use crate::quadric::ellipsoid::Ellipsoid;
-pub use crate::quadric::extent::QuadricExtent;
 pub use crate::quadric::general::{Quadric, QuadricError, QuadricKind};
 pub use crate::quadric::hyperboloid::{HyperboloidOfOneSheet, HyperboloidOfTwoSheets};
 pub use crate::quadric::paraboloid::{EllipticParaboloid, HyperbolicParaboloid};
@@ -137,12 +140,13 @@ pub use crate::quadric::solid::QuadricSolid;
 pub use crate::ray::{CentredRay, End, LocalPoint, LocalRay, PREVIEW_WIDTH, RingRay, WideCache};
 pub use crate::revolution::SurfaceOfRevolution;
 pub use crate::revolution::lathe::{Lathe, LatheError, LatheSpline};
+pub use crate::root::{Root, RootKind};
 pub use crate::sink::{All, Any, Closest, FirstCrossing, Forward, Sink};
 pub use crate::sor::SorError;
 pub use crate::sphere::{Sphere, SphereError};
 pub use crate::sphere_sweep::{SphereSweep, SphereSweepError, SweepSpline};
 pub use crate::steps::Steps;
-pub use crate::surface::{Need, Root, RootKind, Side, Solidity, Surface};
+pub use crate::surface::{Need, Side, Solidity, Surface};
 pub use crate::swift::{Crossings, meet_eight};
 pub use crate::terrain::{HeightField, HeightFieldError, Terrain, TerrainData, TerrainError};
 pub use crate::torus::{Axis, Torus, TorusError};

@@ -295,7 +295,8 @@ impl Accelerate for Plane {
     }
 
     fn half_space(&self) -> Option<HalfSpace> {
-        Some(HalfSpace::behind(self))
+        let n = self.normal();
+        Some(HalfSpace::new([n.x, n.y, n.z].map(Interval::from), self.offset_bounds()))
     }
 
     fn misses(&self, shaft: &Shaft) -> bool {

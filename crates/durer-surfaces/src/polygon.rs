@@ -21,6 +21,7 @@
 //! to a neighbour), the crossing is the one with the plane, and it must lie in the bounding box: a
 //! ray that skims the plane could otherwise pass the outline far from its crossing with the plane.
 
+use crate::FillRule;
 use crate::compose::clip::Algebraic;
 use crate::edges::{self, EdgeFilter};
 use crate::facet::{self, Facet};
@@ -31,17 +32,6 @@ use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Dyadic, Isa, Point3, Ring, Vec3};
 use durer_roots::quadratic::Quadratic;
-
-/// The winding numbers that count as inside.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FillRule {
-    /// Odd numbers: an outline within another is a hole, whatever its direction.
-    #[default]
-    EvenOdd,
-    /// All but zero: overlapping outlines of one direction form a union, and one of the opposite
-    /// direction is a hole.
-    NonZero,
-}
 
 /// A flat sheet within closed outlines. Its normal is that of the first outline, counter-clockwise.
 ///

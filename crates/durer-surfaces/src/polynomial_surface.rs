@@ -3,10 +3,10 @@
 //!
 //! Along a ray the polynomial has one unknown (`roots`). The inside is where it is negative.
 
+use crate::faces::chart::sphere_chart;
+use crate::faces::chart::{Chart, Frame, sheared, tangents};
 use crate::point::least_step;
-use crate::quadric::boolean_faces::{Chart, Frame, sheared, tangents};
 use crate::ray::PREVIEW_WIDTH;
-use crate::sphere::sphere_chart;
 use crate::{CentredRay, End, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint};
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};

@@ -9,9 +9,11 @@
 //! "Precision improvements for ray/sphere intersection", *Ray Tracing Gems* (2019), chapter 7, here
 //! without a unit direction.
 
+use crate::compose::clip::{Algebraic, exact_along, wide_along};
+use crate::faces::boolean_faces::{QuadricFaces, View};
+use crate::faces::chart::{Chart, Frame, length, sphere_chart};
+use crate::faces::form::{Form, Rounded};
 use crate::packet::FilterSource;
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, View};
-use crate::quadric::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
 use crate::{
     Accelerate, LocalPoint, LocalRay, Need, PartId, Root, RootKind, Side, Sink, Solidity, Surface,
@@ -19,7 +21,7 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use durer_math::eft::{exponent, scale2, two_sum};
-use durer_math::{Aabb, Affine, EFloat, Point3, RaySide, Ring, U, Vec3, elementary};
+use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Point3, RaySide, Ring, U, Vec3};
 use durer_roots::quadratic::Quadratic;
 
 /// A sphere with its inside.
@@ -254,26 +256,6 @@ impl QuadricFaces for Sphere {
     }
 }
 
-/// Longitude and latitude: `u = φ / 2π` from the x axis, `v` from 0 at the pole -z to 1 at +z; so
-/// `dpdu x dpdv` points outward.
-///
-/// At the poles the longitude is taken as 0.
-pub(crate) fn sphere_chart(y: Vec3) -> Chart {
-    const TURN: f64 = 2.0 * core::f64::consts::PI;
-    const HALF: f64 = core::f64::consts::PI;
-    let rho = elementary::hypot(y.x, y.y);
-    let (cos, sin) = if rho > 0.0 { (y.x / rho, y.y / rho) } else { (1.0, 0.0) };
-    let phi = if rho > 0.0 { elementary::atan2(y.y, y.x) } else { 0.0 };
-    let u = phi / TURN;
-    let latitude = elementary::atan2(y.z, rho);
-    Chart {
-        uv: [if u < 0.0 { u + 1.0 } else { u }, latitude / HALF + 0.5],
-        // At a pole the circle of latitude has no length; a unit step east keeps the frame defined.
-        dpdu: if rho > 0.0 { Vec3::new(-y.y, y.x, 0.0) * TURN } else { Vec3::Y },
-        dpdv: Vec3::new(-y.z * cos, -y.z * sin, rho) * HALF,
-    }
-}
-
 /// How much the f64 path has decided.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Reach {
@@ -296,14 +278,6 @@ impl<K: Sink + ?Sized> Sink for Leaving<'_, K> {
     fn push(&mut self, root: Root) -> ControlFlow<()> {
         if root.sign > 0 { self.0.push(root) } else { ControlFlow::Continue(()) }
     }
-}
-
-/// The length of a vector, at most 4 roundings below the exact one; without intermediate overflow
-/// or underflow.
-pub(crate) fn length(v: [f64; 3]) -> f64 {
-    let v = Vec3::from(v);
-    let k = exponent(v.max_abs()).max(-1000);
-    durer_math::scale::ldexp(v.map(|x| scale2(x, -k)).length(), k)
 }
 
 impl Surface for Sphere {
@@ -351,6 +325,16 @@ impl Accelerate for Sphere {
 
     fn packet_filter(&self, _part: PartId) -> FilterSource {
         FilterSource::of_shape(self)
+    }
+}
+
+impl Algebraic for Sphere {
+    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+        exact_along(self, self.frame(), face, ray)
+    }
+
+    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
+        wide_along(self, self.frame(), face, ray)
     }
 }
 

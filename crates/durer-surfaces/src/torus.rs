@@ -13,12 +13,12 @@
 //! *spindle*); the part that is inside twice is then outside, by the sign of `f`. `r = R` is a
 //! *horn*.
 
+use crate::faces::chart::length;
+use crate::faces::chart::{Chart, Frame};
+use crate::faces::form::FLOOR;
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame};
-use crate::quadric::form::FLOOR;
 use crate::revolution::packet::{RevolutionKernel, RevolutionWall};
-use crate::sphere::length;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,

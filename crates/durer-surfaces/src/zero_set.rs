@@ -6,9 +6,9 @@
 //! its coefficients along a few directions, and over numbers that are known within an error they
 //! are bounds.
 
+use crate::faces::chart::{Chart, Frame};
+use crate::faces::form::FLOOR;
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame};
-use crate::quadric::form::FLOOR;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, RingRay, Root, Side, Sink,
     Solidity, Surface, SurfacePoint,

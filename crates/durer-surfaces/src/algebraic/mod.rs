@@ -11,10 +11,10 @@
 mod packet;
 
 use self::packet::Terms;
+use crate::faces::chart::{Chart, Frame};
+use crate::faces::form::FLOOR;
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame};
-use crate::quadric::form::FLOOR;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, RingRay, Root, Side,
     Sink, Solidity, Surface, SurfacePoint,

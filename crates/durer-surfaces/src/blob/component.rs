@@ -14,7 +14,7 @@
 use super::BlobShape;
 use super::packet::Field;
 use super::{BlobComponent, march::Along};
-use crate::quadric::boolean_faces::tangents;
+use crate::faces::chart::tangents;
 use crate::{Accelerate, SphereError};
 use durer_math::eft::{scale2, two_diff};
 use durer_math::{Aabb, Affine, Point3, U, Vec3};

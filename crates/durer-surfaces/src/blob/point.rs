@@ -1,8 +1,8 @@
 //! A blob at a point: the sum of the fields, its gradient, and bounds of its second derivatives.
 
 use super::Blob;
+use crate::faces::chart::tangents;
 use crate::point::least_step;
-use crate::quadric::boolean_faces::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Isa, Point3, U, Vec3};

@@ -8,10 +8,10 @@
 //! inside, also where the surface had one.
 
 use super::region::{FaceSet, Region};
+use crate::faces::boolean_faces::{Faces, QuadricFaces};
+use crate::faces::chart::Frame;
 use crate::packet::FilterSource;
-use crate::quadric::boolean_faces::{Faces, Frame, QuadricFaces};
 use crate::quadric::solid::QuadricSolid;
-use crate::sphere::Sphere;
 use crate::{Accelerate, LocalRay, Need, PartId, Placed, Root, Sink, Surface, SurfacePoint};
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
@@ -49,12 +49,17 @@ pub trait Algebraic: Accelerate {
 }
 
 /// The exact polynomial of a face along a ray. One copy of the code serves all shapes.
-fn exact_along(shape: &dyn Faces, frame: Frame, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
+pub(crate) fn exact_along(
+    shape: &dyn Faces,
+    frame: Frame,
+    face: u32,
+    ray: &LocalRay<'_>,
+) -> Option<Quadratic<Dyadic>> {
     Some(shape.exact(face as usize).along(&ray.in_ring_from(frame.centre, frame.scale)?))
 }
 
 /// The same in double-doubles.
-fn wide_along(
+pub(crate) fn wide_along(
     shape: &dyn Faces,
     frame: Frame,
     face: u32,
@@ -84,16 +89,6 @@ impl<S: QuadricFaces> Algebraic for QuadricSolid<S> {
             Some(map) if inner.is_bounded() => self.bounds_through(map).intersection(map.bounds(&inner)),
             Some(map) => self.bounds_through(map),
         }
-    }
-}
-
-impl Algebraic for Sphere {
-    fn polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
-        exact_along(self, self.frame(), face, ray)
-    }
-
-    fn wide_polynomial(&self, face: u32, ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
-        wide_along(self, self.frame(), face, ray)
     }
 }
 

@@ -2,9 +2,10 @@
 //! boxes, and the closures of their complements.
 
 use super::clip::in_parents_parameter;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::chart::{Chart, Frame, tangents};
+use crate::faces::form::{Form, Rounded};
 use crate::packet::FilterSource;
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, tangents};
-use crate::quadric::form::{Form, Rounded};
 use crate::quadric::solid::QuadricSolid;
 use crate::{LocalRay, Root};
 use arrayvec::ArrayVec;

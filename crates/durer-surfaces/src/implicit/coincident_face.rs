@@ -16,7 +16,7 @@
 use super::line::BoundedLine;
 use super::root_isolator::{CertifiedFunction, Found};
 use crate::RootKind;
-use crate::quadric::boolean_faces::tangents;
+use crate::faces::chart::tangents;
 use core::ops::ControlFlow;
 use durer_formula::Tape;
 use durer_math::Vec3;

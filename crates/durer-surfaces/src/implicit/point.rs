@@ -110,7 +110,7 @@ impl Isosurface {
         let mut point = SurfacePoint::new(p, dp, off + slack, n.to_normal());
         point.bend = bend;
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
-            let (u, v) = crate::quadric::boolean_faces::tangents(n);
+            let (u, v) = crate::faces::chart::tangents(n);
             point.uv = [u.dot(p.to_vec()), v.dot(p.to_vec())];
             (point.dpdu, point.dpdv) = (u, v);
         }

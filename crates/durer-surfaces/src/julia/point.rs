@@ -2,8 +2,8 @@
 
 use super::Solid;
 use super::orbit::{Ball, Rule, TINY};
+use crate::faces::chart::tangents;
 use crate::point::least_step;
-use crate::quadric::boolean_faces::tangents;
 use crate::{LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use core::cmp::Ordering::Less;
 use durer_math::{Isa, Point3, U, Vec3};

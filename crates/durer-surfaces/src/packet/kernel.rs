@@ -13,7 +13,7 @@ use super::quadric::Start;
 use super::rays::{From8, Nearest, RayLanes};
 use super::sink::First;
 use super::skin::{Skin, Slant};
-use crate::quadric::form::Form;
+use crate::faces::form::Form;
 use core::any::{Any, TypeId};
 use core::fmt::Debug;
 use durer_math::{Dd, EFloat, F8, Isa, Point3, Vec3};

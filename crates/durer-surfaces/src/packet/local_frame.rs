@@ -15,7 +15,7 @@
 //!
 //! which covers three fused products, the sum and the rounding of `h`.
 
-use crate::quadric::form::Form;
+use crate::faces::form::Form;
 use durer_math::{Dd, EFloat, F8, Point3, Ring, U, Vec3};
 
 type N = EFloat<Dd>;

@@ -19,7 +19,7 @@
 //! 2^-500` where `B >= 1`: far above the `2^-1074` that a product may lose to underflow. Where `A`
 //! itself is that small, its far root is beyond `FAR`.
 
-use crate::quadric::form::Form;
+use crate::faces::form::Form;
 use durer_math::{Dd, EFloat, F8, U, Vec3};
 
 /// See the head of this file.

@@ -5,9 +5,9 @@ use super::kernel::{DetailSketch, PacketKernel};
 use super::loops::{Edge, Loops, Off};
 use super::{PacketFilter, QuadricFace8};
 use crate::FillRule;
-use crate::quadric::boolean_faces::QuadricFaces;
-use crate::quadric::extent::QuadricExtent;
-use crate::quadric::form::Form;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::extent::QuadricExtent;
+use crate::faces::form::Form;
 use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, Ring, U, Vec3};
 use std::sync::Arc;
 

@@ -19,14 +19,14 @@ use super::sheet::Sheet;
 use super::sweep_maps::OVERLAP;
 use super::winding::{self, Turn, face_outside, kept_turns, pour};
 use crate::compose::clip::Algebraic;
-use crate::implicit::deform::bernstein;
+use crate::implicit::deform::{DeformStep, bernstein};
 use crate::implicit::level_set::expr::ExprBuilder;
 use crate::packet::FilterSource;
 use crate::patch::composed::Moved;
 use crate::patch::{Nets, Source, map_uv, net::FaceNet, shells, triangular};
 use crate::{
     Accelerate, BezierPatch, DeformError, Forward, LocalPoint, LocalRay, Need, Nurbs, PartId, Root, Sewn,
-    Side, Sink, Solidity, Surface, SurfacePoint, TriangularPatch, Warp,
+    Side, Sink, Solidity, Surface, SurfacePoint, TriangularPatch,
 };
 use durer_formula::{FormulaError, NodeId, VectorTape};
 use durer_math::{Aabb, Affine, Dd, Interval};
@@ -45,15 +45,6 @@ pub enum DeformSource {
     Sewn(Sewn),
     /// A surface of three formulas, all of it in its container.
     Parametric(Parametric),
-}
-
-/// A step on the way of a point.
-#[derive(Clone, Debug, PartialEq)]
-pub enum DeformStep {
-    /// It is placed by an affine map.
-    Place(Affine),
-    /// It is moved by a warp.
-    Warp(Warp),
 }
 
 /// A surface that is given by parameters, after placements and warps. A root's face is the patch, its

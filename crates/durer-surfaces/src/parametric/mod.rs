@@ -59,7 +59,7 @@ use piece::Face;
 use sheet::Sheet;
 use std::sync::Arc;
 
-pub use deformed::{DeformSource, DeformStep, DeformedSurface};
+pub use deformed::{DeformSource, DeformedSurface};
 pub use path::PathSpline;
 pub use sweep::{PathSweep, SweepData, SweepError};
 

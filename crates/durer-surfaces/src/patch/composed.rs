@@ -18,10 +18,10 @@ use super::net::{FaceNet, Homogeneous, Net};
 use super::nurbs::Parts;
 use super::shell::{FaceTrim, Shell};
 use super::surface::Patches;
-use super::triangle_net::binomial;
 use super::{BezierPatch, LARGEST, Nurbs, Sewn, SewnError, TriangularPatch, WEIGHTS};
 use crate::{DeformStep, Lattice, Warp};
 use durer_math::{Affine, Dd};
+use durer_roots::bernstein::binomial;
 
 /// Surfaces whose control points can be moved.
 #[derive(Clone, Copy, Debug)]

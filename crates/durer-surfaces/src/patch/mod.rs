@@ -57,7 +57,6 @@ use std::sync::Arc;
 use surface::{Patches, surface_of_patches};
 
 pub(crate) use composed::{Nets, Source, shells};
-pub(crate) use triangle_net::binomial;
 
 pub use nurbs::{Nurbs, NurbsData, NurbsError};
 pub use sewn::{Sewn, SewnData, SewnError};

@@ -1,14 +1,14 @@
 //! Where a line may meet a cell in which nothing is proven: brackets are no longer than the hull of the
 //! cell's control points.
 //!
-//! A bound on slopes gives a bracket that reaches beyond the patch by the bound's own rounding, far
+//! A bound on slopes gives a bracket that reaches beyond the patch by the bound's own rounding: far
 //! beyond a flat patch that the line passes at a corner, and far along the parameter in which an edge is
-//! one point. A combination `g` of both functions is zero on the line, and `z` counts along it: the
-//! control points are points `(g_i, z_i)` of a plane. `g` is along the two that are farthest apart across
-//! the line, about, so that a flat patch is seen from above. Weights are positive, so all points of the
-//! cell are in their convex hull, and a crossing is in the hull's strip `|g| <= e`, if all `g_i` are off
-//! by `e` at most. The ends of the strip are where segments between two of the points cross `g = -e` and
-//! `g = e`, or points in it.
+//! one point. The hull is shorter. A combination `g` of both functions is zero on the line, and `z`
+//! counts along it, so the control points are points `(g_i, z_i)` of a plane. `g` is the combination
+//! along the two control points that are about the farthest apart: the points of a flat patch then
+//! spread over that plane. Weights are positive, so all points of the cell are in the convex hull, and a
+//! crossing is in the hull's strip `|g| <= e` if every `g_i` is off by `e` at most. The strip ends where
+//! segments between two of the points cross `g = -e` and `g = e`, or at points in it.
 
 use super::exact::Exact;
 use super::line::{Found, View};

@@ -14,6 +14,7 @@
 use super::cell::power;
 use super::net::{Homogeneous, Net};
 use durer_math::Dd;
+use durer_roots::bernstein::binomial;
 
 /// The control points of a triangular patch or of a part of it.
 #[derive(Clone, Debug)]
@@ -99,10 +100,6 @@ fn step(points: &[Homogeneous<Dd>], side: usize, [u, v]: [f64; 2]) -> Vec<Homoge
         }
     }
     out
-}
-
-pub(crate) fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
 }
 
 impl TriangleNet {

@@ -4,10 +4,11 @@
 //! A clipped quadric is a solid with flat ends or, if it is open, the wall alone. Each surface
 //! defines its polynomial ([`Wall`]) in its own file.
 
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
-use crate::quadric::form::Form;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::chart::length;
+use crate::faces::chart::{Chart, Frame, sheared};
+use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
-use crate::sphere::length;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Affine, EFloat, Point3, Ring, U, Vec3, elementary};
 

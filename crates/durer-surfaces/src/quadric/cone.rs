@@ -6,10 +6,10 @@
 //!
 //! The usual cone between two discs is [`Frustum`](crate::Frustum).
 
+use crate::faces::chart::Chart;
+use crate::faces::form::Form;
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};
-use crate::quadric::boolean_faces::Chart;
 use crate::quadric::ellipsoid::products;
-use crate::quadric::form::Form;
 use durer_math::{Ring, Vec3};
 
 /// An elliptic cone about the z axis.

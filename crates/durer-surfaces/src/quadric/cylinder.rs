@@ -8,9 +8,9 @@
 //!
 //! The cylinder between two arbitrary points is [`CappedCylinder`](crate::CappedCylinder).
 
+use crate::faces::chart::{Chart, sheared};
+use crate::faces::form::Form;
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive};
-use crate::quadric::boolean_faces::{Chart, sheared};
-use crate::quadric::form::Form;
 use durer_math::eft::exponent;
 use durer_math::{Ring, Vec3};
 

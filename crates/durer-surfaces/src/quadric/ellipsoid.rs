@@ -4,10 +4,10 @@
 //!   x²/a² + y²/b² + z²/c² <= 1
 //! ```
 
+use crate::faces::chart::Chart;
+use crate::faces::chart::sphere_chart;
+use crate::faces::form::Form;
 use crate::quadric::axial::{Axial, AxialError, Wall, positive};
-use crate::quadric::boolean_faces::Chart;
-use crate::quadric::form::Form;
-use crate::sphere::sphere_chart;
 use durer_math::{Ring, Vec3};
 
 /// An ellipsoid about the origin.

@@ -9,10 +9,11 @@
 //! are real, and Descartes' rule of signs on the characteristic polynomials counts them exactly;
 //! the signs of those polynomials' coefficients are computed in exact arithmetic.
 
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared};
-use crate::quadric::form::Form;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::chart::sphere_chart;
+use crate::faces::chart::{Chart, Frame, sheared};
+use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
-use crate::sphere::sphere_chart;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Point3, Ring, Vec3};

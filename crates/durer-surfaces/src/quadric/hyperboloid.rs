@@ -6,10 +6,10 @@
 //!                                                 the inside is within the bowls
 //! ```
 
+use crate::faces::chart::Chart;
+use crate::faces::form::Form;
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive, widest};
-use crate::quadric::boolean_faces::Chart;
 use crate::quadric::ellipsoid::products;
-use crate::quadric::form::Form;
 use durer_math::{EFloat, Ring, Vec3};
 
 /// A hyperboloid of one sheet about the z axis.

@@ -5,9 +5,9 @@
 //!   hyperbolic   x²/a² - y²/b² - z/c <= 0      a saddle; the inside is above it
 //! ```
 
+use crate::faces::chart::{Chart, sheared};
+use crate::faces::form::Form;
 use crate::quadric::axial::{Axial, AxialError, Wall, around, positive};
-use crate::quadric::boolean_faces::{Chart, sheared};
-use crate::quadric::form::Form;
 use durer_math::eft::exponent;
 use durer_math::{EFloat, Ring, Vec3};
 

@@ -11,8 +11,9 @@
 //! "Intersecting a ray with a cylinder", *Graphics Gems IV* (1994), treat the cylinder by vectors
 //! in the same way.
 
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
-use crate::quadric::form::Form;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::chart::{Chart, Frame, sheared, tangents};
+use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use durer_math::eft::exponent;
 use durer_math::{Aabb, Dd, EFloat, Point3, Ring, U, Vec3, elementary};

@@ -10,10 +10,11 @@
 //! is made. A half-angle of 90 degrees gives half a ball. Larger ones are not convex and are not
 //! supported.
 
-use crate::quadric::boolean_faces::{Chart, Frame, QuadricFaces, sheared, tangents};
-use crate::quadric::form::Form;
+use crate::faces::boolean_faces::QuadricFaces;
+use crate::faces::chart::sphere_chart;
+use crate::faces::chart::{Chart, Frame, sheared, tangents};
+use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
-use crate::sphere::sphere_chart;
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3, elementary};
 

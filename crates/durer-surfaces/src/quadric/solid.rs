@@ -1,8 +1,9 @@
 //! A [`QuadricFaces`] as a [`Surface`].
 
+use crate::faces::boolean_faces::{QuadricFaces, View, rounded};
+use crate::faces::chart::Frame;
+use crate::faces::form::Rounded;
 use crate::packet::FilterSource;
-use crate::quadric::boolean_faces::{Frame, QuadricFaces, View, rounded};
-use crate::quadric::form::Rounded;
 use crate::{
     Accelerate, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };

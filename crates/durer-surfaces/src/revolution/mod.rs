@@ -23,10 +23,10 @@ mod profile;
 mod profile_piece;
 
 use self::packet::RevolutionKernel;
+use crate::faces::chart::Frame;
 use crate::packet::FilterSource;
 use crate::planar::{self, Crossing, Line, PlaneForm, PointLine, Probe};
 use crate::polynomial_surface;
-use crate::quadric::boolean_faces::Frame;
 use crate::{
     Accelerate, Algebraic, CentredRay, Forward, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink,
     Solidity, Surface, SurfacePoint,

@@ -1,8 +1,8 @@
 //! Walls of solids of revolution: `x² + z² = p(y)` with a cubic `p`, and the sheets of a torus that
 //! meets itself.
 
+use crate::faces::chart::{Chart, Frame};
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::{Chart, Frame};
 use crate::{CentredRay, RingRay};
 use durer_math::eft::scale2;
 use durer_math::{Point3, Ring, U, Vec3, elementary};

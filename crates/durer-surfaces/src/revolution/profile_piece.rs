@@ -2,9 +2,9 @@
 
 use super::packet::RevolutionWall;
 use super::profile::{Cubic, Spindle};
+use crate::faces::chart::Frame;
 use crate::planar::{AlongRay, Line, PointLine, Probe};
 use crate::polynomial_surface::{self, PolynomialSurface};
-use crate::quadric::boolean_faces::Frame;
 use crate::{LocalPoint, LocalRay, RingRay, Root, Side};
 use core::cmp::Ordering;
 use durer_math::{Dyadic, EFloat, Isa, Ring, Vec3};

@@ -4,8 +4,8 @@
 use super::SphereSweep;
 use super::line::Curve;
 use super::spline::Basis;
+use crate::faces::chart::tangents;
 use crate::point::least_step;
-use crate::quadric::boolean_faces::tangents;
 use crate::{CentredRay, End, LocalPoint, LocalRay, Need, Root, Side, SurfacePoint};
 use core::cmp::Ordering;
 use durer_math::eft::{scale2, two_sum};

@@ -12,9 +12,9 @@
 
 use super::DeformError;
 use crate::implicit::level_set::expr::ExprBuilder;
-use crate::patch::binomial;
 use durer_formula::{FormulaError, NodeId, Op};
 use durer_math::{Aabb, Vec3};
+use durer_roots::bernstein::binomial;
 
 /// The most points along an axis.
 const MOST: usize = 8;

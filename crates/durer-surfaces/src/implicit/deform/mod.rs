@@ -87,6 +87,15 @@ pub enum Warp {
     Lattice(Arc<Lattice>),
 }
 
+/// A step on the way of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DeformStep {
+    /// It is placed by an affine map.
+    Place(Affine),
+    /// It is moved by a warp.
+    Warp(Warp),
+}
+
 /// Why a deformed solid cannot exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DeformError {

@@ -1,6 +1,7 @@
 //! Tests of deformed surfaces: rays are aimed at points that are worked out from the definitions.
 
 use super::*;
+use crate::DeformStep;
 use crate::{
     Lattice, LocalPoint, Nurbs, NurbsData, Sewn, SewnData, Side, Solidity, Steps, TriangularPatch, Warp,
 };

@@ -12,14 +12,15 @@
 //!   all faces that are zero there;
 //! - a line that lies in a face is inside that face, so other faces end the interval.
 
-use crate::quadric::form::{Form, Rounded};
+use crate::faces::chart::{Chart, Frame};
+use crate::faces::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
 use crate::{CentredRay, End, LocalPoint, RingRay, Root, RootKind, Side, Sink};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 use core::cmp::Ordering::{Equal, Greater, Less};
 use core::ops::ControlFlow;
-use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, Point3, RaySide, Ring, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Ring, U, Vec3};
 use durer_roots::quadratic::{
     Crossing, Limits, LineRoots, NARROW, Quadratic, SignedEnclosure, admit, compare_roots, exact_sign,
     locate, locate_exact, sign_at_root, slope_at_root, solve,
@@ -27,53 +28,6 @@ use durer_roots::quadratic::{
 
 /// The most faces a shape can have.
 pub const MAX_FACES: usize = 6;
-
-/// The coordinates in which a shape is computed: `y` with `x = centre + 2^scale y`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// The point to which rays are re-centred.
-    pub centre: Point3,
-    /// The exponent of the unit of length; the shape's size should be about one unit.
-    pub scale: i32,
-    /// The radius of a ball about the centre that holds the shape, in units; infinite if there is
-    /// none.
-    pub reach: f64,
-}
-
-/// Surface coordinates of a face at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Chart {
-    /// Texture coordinates.
-    pub uv: [f64; 2],
-    /// The derivative of the position by u, in units of the frame.
-    pub dpdu: Vec3,
-    /// The derivative of the position by v, in units of the frame.
-    pub dpdv: Vec3,
-}
-
-/// Two unit vectors across a unit vector, all three right-handed: T. Duff et al., "Building an
-/// orthonormal basis, revisited", *Journal of Computer Graphics Techniques* 6(1), 2017.
-pub(crate) fn tangents(n: Vec3) -> (Vec3, Vec3) {
-    let sign = 1.0_f64.copysign(n.z);
-    let a = -1.0 / (sign + n.z);
-    let b = n.x * n.y * a;
-    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
-}
-
-/// The projection of `v` along `along` onto the plane across `n`: the tangent of a graph over
-/// directions.
-pub(crate) fn sheared(v: Vec3, along: Vec3, n: Vec3) -> Vec3 {
-    let flat = |w: Vec3| w - n * n.dot(w);
-    let w = flat(v - along * (n.dot(v) / n.dot(along)));
-    let size = v.max_abs();
-    // Edge-on there is no graph; then the part of v in the plane, and if that vanishes, any
-    // tangent.
-    if w.max_abs() <= 1e6 * size && w.max_abs() >= 1e-6 * size {
-        return flat(w);
-    }
-    let w = flat(v);
-    if w.max_abs() >= 1e-6 * size { flat(w) } else { tangents(n).0 * size.min(f64::MAX) }
-}
 
 /// A solid with quadric faces: the methods that its author writes. Everything else follows.
 pub trait QuadricFaces: Send + Sync {
