@@ -27,6 +27,26 @@ impl HalfSpace {
         Self { normal, distance }
     }
 
+    /// A box around the half-space, which is unbounded in all directions but one at most: it is
+    /// bounded where the normal is exactly along an axis.
+    pub fn bounds(&self) -> Aabb {
+        let mut all = Aabb::UNBOUNDED;
+        for axis in 0..3 {
+            let is_zero = |k: usize| self.normal[k] == Interval::from(0.0);
+            if !(is_zero((axis + 1) % 3) && is_zero((axis + 2) % 3)) {
+                continue;
+            }
+            let n = self.normal[axis];
+            let end = self.distance / n;
+            if n.lo > 0.0 && !end.hi.is_nan() {
+                all.max[axis] = end.hi;
+            } else if n.hi < 0.0 && !end.lo.is_nan() {
+                all.min[axis] = end.lo;
+            }
+        }
+        all
+    }
+
     /// The half-space on the other side of the same plane.
     #[must_use]
     pub fn complement(self) -> Self {
@@ -229,5 +249,18 @@ mod tests {
             }
         }
         assert!(bounded > 250 && within > 2_000, "{bounded} {within}");
+    }
+
+    #[test]
+    fn a_plane_across_an_axis_bounds_one_side() {
+        let above = plane(0.0, -2.0, 0.0, 3.0).bounds();
+        assert_eq!(
+            (above.min.x, above.max.y, above.max.z),
+            (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY)
+        );
+        assert!(above.min.y <= -1.5 && above.min.y > -1.5 - 1e-15, "{above:?}");
+        let below = plane(0.0, -2.0, 0.0, 3.0).complement().bounds();
+        assert!(below.max.y >= -1.5 && below.max.y < -1.5 + 1e-15 && below.min.y == f64::NEG_INFINITY);
+        assert_eq!(plane(1e-300, 1.0, 0.0, 1.0).bounds(), Aabb::UNBOUNDED);
     }
 }

@@ -228,7 +228,11 @@ impl Tree {
                 boxes[i] = cut(boxes[i], HalfSpace::common_bounds(&faces[i]));
             }
             for quadric in &quadrics[i] {
-                boxes[i] = quadric.bounds_within(&boxes[i]);
+                let slab = faces[i].iter().fold(boxes[i], |slab, face: &HalfSpace| cut(slab, face.bounds()));
+                let within = quadric.bounds_within(&slab);
+                if within.is_bounded() {
+                    boxes[i] = cut(boxes[i], within);
+                }
             }
             boxes[i] = without(boxes[i], &taken_away[i]);
             if i > 0 {
