@@ -258,9 +258,9 @@ mod tests {
             (above.min.x, above.max.y, above.max.z),
             (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY)
         );
-        assert!(above.min.y <= -1.5 && above.min.y > -1.5 - 1e-15, "{above:?}");
+        assert!(above.min.y <= -3.0 && above.min.y > -3.0 - 1e-14, "{above:?}");
         let below = plane(0.0, -2.0, 0.0, 3.0).complement().bounds();
-        assert!(below.max.y >= -1.5 && below.max.y < -1.5 + 1e-15 && below.min.y == f64::NEG_INFINITY);
+        assert!(below.max.y >= -3.0 && below.max.y < -3.0 + 1e-14 && below.min.y == f64::NEG_INFINITY);
         assert_eq!(plane(1e-300, 1.0, 0.0, 1.0).bounds(), Aabb::UNBOUNDED);
     }
 }
