@@ -72,8 +72,9 @@ fn each_way<W: Wall>(
         sum.widths.extend(t.widths);
     };
     let (solid, open) = (whole.between(from, to).unwrap(), whole.open_between(from, to).unwrap());
-    // A piece may be wider than the axes.
+    // A bounded piece may be wider than the axes.
     let reach = solid.bounds().reach_from(Point3::new(0.0, 0.0, 0.5 * (from + to)));
+    let reach = if reach < f64::INFINITY { reach } else { size };
     let pieces = [
         (whole.clone(), canonical(wall, None, false, size, false)),
         (solid, canonical(wall, Some(ends), false, reach, convex)),
