@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// The message if it is not installed.
 pub(crate) const MISSING: &str = "not run: the program `povray` (POV-Ray 3.7; on Debian `apt-get install povray povray-includes`) is not installed";
 
-/// What it says if its threads do not start in time, which happens on a busy machine.
+/// Its message if its threads do not start in time, which happens on a busy machine.
 const LATE: &str = "Timed out waiting for worker thread startup";
 
 /// The number of times it is started if its threads do not start in time, at most.

@@ -19,7 +19,7 @@ const TINY: f64 = durer_math::scale::pow2(-500);
 const CLEAR: f64 = 256.0 * U;
 
 /// How far a double tip may be from the origin of the frame it is placed in, in units: within that rays
-/// start on the side that they are told to.
+/// start on the requested side.
 const FAR: f64 = durer_math::scale::pow2(10);
 /// No start from a tip is farther from it than this, in units.
 const FARTHEST: f64 = durer_math::scale::pow2(-20);

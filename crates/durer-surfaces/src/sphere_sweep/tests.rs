@@ -455,7 +455,7 @@ fn with_double_tips() -> Vec<(SphereSweep, Point3, [Vec3; 2])> {
     ]
 }
 
-/// A ray that leaves the surface at a double tip starts on the side that it is told to, and whatever the
+/// A ray that leaves the surface at a double tip starts on the requested side, and whatever the
 /// side, its crossings are those of the exact ray.
 #[test]
 fn rays_that_leave_a_double_tip_start_on_their_side() {
