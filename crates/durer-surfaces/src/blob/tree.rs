@@ -124,7 +124,11 @@ impl Tree {
                 continue;
             }
             match self.inner(i) {
-                Inner::Leaf(from, to) => (from..to).for_each(&mut take),
+                Inner::Leaf(from, to) => {
+                    for i in from..to {
+                        take(i);
+                    }
+                }
                 // The depth is at most the number of binary digits of the number of components.
                 Inner::Nodes(a, b) => open.extend([b, a]),
             }

@@ -43,6 +43,7 @@ fn below(p: Point3) -> Point3 {
 
 impl Wall {
     /// A triangle in its plane, seen from outside.
+    #[inline(always)]
     pub(super) fn facet(&self) -> Facet {
         let down = below(self.p);
         if (self.axis == 0) == self.far { [self.p, self.q, down] } else { [self.p, down, self.q] }
@@ -54,11 +55,12 @@ impl Wall {
     }
 
     /// Whether the line passes the upper edge and both verticals on the same side.
+    #[inline(always)]
     fn is_passed(&self, probe: &Probe<'_>, filter: &EdgeFilter) -> bool {
         let lines = [[self.p, self.q], [self.q, below(self.q)], [below(self.p), self.p]];
         let mut common = 0;
         for [a, b] in lines {
-            let seen = [a, b].map(|p| filter.seen(p));
+            let seen = [filter.seen(a), filter.seen(b)];
             let bound = filter.bound(seen[0].max_abs().max(seen[1].max_abs()));
             let value = filter.side(seen[0], seen[1]);
             let side = if value.abs() > bound {
@@ -90,23 +92,28 @@ impl AlongRay for Apart<'_> {
 
 impl<H: Heights> Sheet<H> {
     /// The borders: the axis across, whether it is the far one, and the number of edges.
+    #[inline(always)]
     fn borders(&self) -> [(usize, bool, u32); 4] {
         let [columns, rows] = self.heights().cells();
         [(0, false, rows), (0, true, rows), (2, false, columns), (2, true, columns)]
     }
 
     /// The piece of a wall below an edge of a border.
+    #[inline(always)]
     fn piece(&self, axis: usize, far: bool, n: u32) -> Wall {
-        let [columns, rows] = self.heights().cells();
-        let point = |i: u32, j: u32| Point3::new(at(i, columns), self.heights().height(i, j), at(j, rows));
-        let end = |n: u32| {
-            if axis == 0 {
-                point(if far { columns } else { 0 }, n)
-            } else {
-                point(n, if far { rows } else { 0 })
-            }
-        };
-        Wall { p: end(n), q: end(n + 1), axis, far }
+        let cells = self.heights().cells();
+        let mut ends = [Point3::ORIGIN; 2];
+        for (end, n) in ends.iter_mut().zip([n, n + 1]) {
+            let [i, j] = match (axis, far) {
+                (0, false) => [0, n],
+                (0, true) => [cells[0], n],
+                (_, false) => [n, 0],
+                (_, true) => [n, cells[1]],
+            };
+            *end = Point3::new(at(i, cells[0]), self.heights().height(i, j), at(j, cells[1]));
+        }
+        let [p, q] = ends;
+        Wall { p, q, axis, far }
     }
 
     /// The wall of a face.
@@ -162,6 +169,7 @@ impl<H: Heights> Sheet<H> {
         of(low).saturating_sub(1)..(of(high) + 2).min(edges)
     }
 
+    #[inline(always)]
     fn wall_root(&self, wall: &Wall, face: u32, ray: &LocalRay<'_>, range: (f64, f64)) -> Option<Root> {
         let facet = wall.facet();
         let probe = Self::probe(ray, &facet);
