@@ -221,11 +221,10 @@ impl<T: Word, const K: usize> Curve<T, K> {
         ([x.0, y.0, z.0], r.0, [x.1, y.1, z.1], r.1)
     }
 
-    /// For the origin: the coefficients of `z` and `z²` in `|c|² - r²`, with `x = at + z`.
+    /// For the origin: the coefficients of `|c|² - r²` in `z`, with `x = at + z`.
     #[inline(always)]
-    pub(super) fn turn<const M: usize>(&self, at: f64) -> (EFloat<T>, EFloat<T>) {
-        let p = self.moved(at).square::<M>(0);
-        (p[1], p[2])
+    pub(super) fn about<const M: usize>(&self, at: f64) -> [EFloat<T>; M] {
+        self.moved(at).square(0)
     }
 }
 

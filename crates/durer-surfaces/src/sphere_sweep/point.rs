@@ -34,6 +34,17 @@ struct Leave {
     slack: f64,
 }
 
+/// By how much a polynomial in `z` differs at `z` from its value at zero, rounded: without the
+/// constant coefficient the sign is right also for a small `z`.
+#[inline(always)]
+fn rise<const M: usize>(p: &[EFloat; M], z: f64) -> f64 {
+    let mut sum = 0.0_f64;
+    for k in (1..M).rev() {
+        sum = sum.mul_add(z, p[k].v);
+    }
+    sum * z
+}
+
 impl SphereSweep {
     /// How rays leave the tip of a cone that opens by `sine`, the sine of half its angle. The way out is
     /// along the axis, unless there is another cone on the other side of the tip: the radius changes its
@@ -244,15 +255,19 @@ impl SphereSweep {
                 from
             },
         );
-        // The ball that is nearest, by Newton's method if its steps are small.
+        // The ball that touches the surface here is the one with the least |y - c|² - r². Newton's
+        // method finds it if its steps are small. Where it does not, as next to an end towards which
+        // the value falls without a minimum, an end with a lesser value is nearer.
         for _ in 0..2 {
-            let (p1, p2) = curve.turn::<M>(x);
-            let step = -0.5 * p1.v / p2.v;
-            if p2.v > 0.0 && step.abs() < 1.0 / 64.0 {
+            let p = curve.about::<M>(x);
+            let step = -0.5 * p[1].v / p[2].v;
+            if p[2].v > 0.0 && step.abs() < 1.0 / 64.0 {
                 x = (x + step).clamp(-1.0, 1.0);
-            } else if 1.0 - x.abs() < durer_math::scale::pow2(-20) && p1.v * x < 0.0 {
-                // The ball at the end is nearer than all before it.
-                x = x.signum();
+            } else {
+                let [left, right] = [rise(&p, -1.0 - x), rise(&p, 1.0 - x)];
+                if left.min(right) < 0.0 {
+                    x = if left < right { -1.0 } else { 1.0 };
+                }
             }
         }
         let (c, signed, c1, r1) = curve.place(x);
@@ -279,7 +294,8 @@ impl SphereSweep {
         // By how much another ball may hold more than this one: p1² / (4 p2), over 2 r. Near an end
         // of the sweep, and on a ball that touches the surface from inside in one point only by
         // chance, the surface is not known to be smooth: then it is a tip.
-        let (p1, p2) = curve.turn::<M>(x);
+        let near = curve.about::<M>(x);
+        let (p1, p2) = (near[1], near[2]);
         let within = x > -1.0 && x < 1.0;
         let turned = p2.lo();
         let dip = if within && turned > 0.0 { p1.v * p1.v / turned / r.max(TINY) } else { 0.0 };
