@@ -32,12 +32,13 @@ pub(super) struct Known {
 }
 
 /// All entries that a scene of the generator can have.
-pub(super) const ALL: [Known; 5] = [
+pub(super) const ALL: [Known; 6] = [
     Known { entry: "`no_shadow` holds for every part of a union.", without: without_no_shadow },
     Known { entry: "A camera exactly on a clear sphere", without: without_camera_on_a_surface },
     Known { entry: "Two surfaces at the same place.", without: without_second_ceiling },
     Known { entry: "Two surfaces at the same place.", without: with_things_apart },
     Known { entry: "`slope` and `aoi` on bumps", without: without_slopes },
+    Known { entry: "Bumps after a turned pattern of textures.", without: without_turns },
 ];
 
 /// With all `Reworded` at once, and their entries.
@@ -183,6 +184,36 @@ fn with_things_apart(scene: &Scene) -> Option<Scene> {
     (less != *scene).then_some(less)
 }
 
+/// Without what turns or stretches the patterns of textures that stand in other such patterns, if the
+/// scene has bumps.
+fn without_turns(scene: &Scene) -> Option<Scene> {
+    if !scene.text().contains("normal {") {
+        return None;
+    }
+    let mut less = scene.clone();
+    less.objects.iter_mut().for_each(|object| turn_back(object, false));
+    (less != *scene).then_some(less)
+}
+
+/// Removes what turns or stretches patterns of textures. `is_inner` says that the node stands in such
+/// a pattern.
+fn turn_back(node: &mut Node, is_inner: bool) {
+    let has_textures = |node: &Node| {
+        node.said.iter().any(|said| ["texture {", "texture_map {"].iter().any(|w| said.open.starts_with(w)))
+    };
+    let is_texture = is_inner || node.open.starts_with("texture {");
+    let is_pattern = is_texture && (has_textures(node) || node.said.iter().any(has_textures));
+    if is_inner && is_pattern {
+        let is_even =
+            |size: &str| size.strip_prefix("scale ").is_some_and(|s| s.starts_with(|c: char| c.is_ascii_digit()));
+        let turns = |open: &str| ["rotate ", "matrix ", "scale "].iter().any(|w| open.starts_with(w));
+        node.said.retain(|said| !turns(&said.open) || is_even(&said.open));
+    }
+    for inner in node.parts.iter_mut().chain(&mut node.said) {
+        turn_back(inner, is_inner || is_pattern);
+    }
+}
+
 /// Without `no_shadow` inside clipped unions. Declared objects may stand in one.
 fn without_no_shadow(scene: &Scene) -> Option<Scene> {
     let mut less = scene.clone();
@@ -263,6 +294,23 @@ mod tests {
             let found = scenes.filter(|s| (known.reworded)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }
+    }
+
+    #[test]
+    fn inner_patterns_of_textures_are_turned_back() {
+        let turned = |open: &str, mut said: Vec<Node>| {
+            said.extend(["scale 0.3", "scale <1, 2, 1>", "rotate 30*y", "translate x"].map(Node::text));
+            Node { said, ..Node::block(open, Vec::new(), 0) }
+        };
+        let plain = || Node { said: vec![Node::text("normal { bumps }")], ..Node::block("texture {", vec![], 0) };
+        let entry = Node { close: "]", ..turned("[1 checker", vec![plain(), plain()]) };
+        let map = Node::block("texture_map {", vec![entry], 1);
+        let mut sphere = turned("sphere { 0, 1", vec![turned("texture { gradient x", vec![map])]);
+        let before = sphere.line();
+        turn_back(&mut sphere, false);
+        let inner = "scale 0.3 scale <1, 2, 1> rotate 30*y translate x ]";
+        assert!(before.contains(inner), "{before}");
+        assert_eq!(sphere.line(), before.replace(inner, "scale 0.3 translate x ]"));
     }
 
     #[test]

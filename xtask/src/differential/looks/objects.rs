@@ -74,7 +74,8 @@ impl Maker {
                 "scale 0.3 + 0.2*Table[I] translate <I - 1.5, Swing(I, 1) - 0.5, 2*Table[mod(I, 5)]> rotate {turn}*z*I"
             )
         } else {
-            format!("scale 0.5 translate <I - 1, 0, 0> rotate {turn}*I*z")
+            // Behind each other, so that no two faces of boxes are at the same place.
+            format!("scale 0.5 translate <I - 1, 0, 0.0371*I> rotate {turn}*I*z")
         };
         each.said.push(Node::text(place));
         let last = 1 + self.r.below(3);

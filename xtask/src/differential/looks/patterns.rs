@@ -262,9 +262,13 @@ impl Maker {
             kind => {
                 let mut words = ["cylindrical", "spherical", "planar"][kind - 6].to_owned();
                 if words == "planar" {
-                    if self.r.chance(60) {
-                        words += &format!(" {}, {}", self.r.vector(-1.0, 1.0), self.odd(-0.5, 0.5));
-                    }
+                    // Without a distance z is 0, the line of corners of `hexagon`, where the last
+                    // digit decides which hexagon POV-Ray shows.
+                    words += &if self.r.chance(60) {
+                        format!(" {}, {}", self.r.vector(-1.0, 1.0), self.odd(-0.5, 0.5))
+                    } else {
+                        " z, 0.23417".to_owned()
+                    };
                 } else {
                     if self.r.chance(40) {
                         words += &format!(" orientation {}", self.r.choice(&["x", "y", "z", "-z"]));
