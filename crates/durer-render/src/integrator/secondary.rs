@@ -177,16 +177,16 @@ impl<'w> Onward<'w> {
 }
 
 /// The direction of mirror reflection. Where the normal is perturbed, a direction into the surface is
-/// mirrored again, by the unperturbed normal; a perturbed normal that points away from the eye
-/// counts for nothing (facts of the scene language).
+/// mirrored again, by the unperturbed normal; if the perturbed normal points away from the eye, the
+/// unperturbed one alone counts then (facts of the scene language).
 #[inline(always)]
 pub(super) fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     let direction = reflect(view.eye, view.normal);
     let Some(plain) = plain else { return direction };
     let enters = dot(direction, plain.normal).lt(F8::ZERO);
-    let kept = enters.select3(reflect(direction, plain.normal), direction);
     let turned_away = F8::ZERO.lt(dot(view.eye, view.normal));
-    turned_away.select3(reflect(view.eye, plain.normal), kept)
+    let again = reflect(turned_away.select3(view.eye, direction), plain.normal);
+    enters.select3(again, direction)
 }
 
 /// The sum of the cosines of the angles at which mirrored light comes and goes through a thin film.

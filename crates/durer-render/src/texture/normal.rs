@@ -121,6 +121,12 @@ impl RenderNormal {
 
     /// The unit normal at a point, perturbed from the unit normal `n`.
     fn at(&self, p: Point3, n: Vec3, around: Around) -> Vec3 {
+        unit(self.bent(p, n, around))
+    }
+
+    /// The normal at a point, perturbed from `n`. Bumps that keep their slope leave it as long as it
+    /// becomes, which counts where normals are mixed (a fact of the scene language).
+    fn bent(&self, p: Point3, n: Vec3, around: Around) -> Vec3 {
         let p = self.place.inside(p, around);
         let mut own = match &self.turn {
             None => n,
@@ -136,20 +142,22 @@ impl RenderNormal {
             Body::Push(pusher, amount) => own + pusher.vector(p, own) * *amount,
             Body::Picture(picture, value, amount) => own - picture.differences(p, *value) * *amount,
             Body::Normals(blend) => match blend.at(p, around) {
-                Some(Shown::One(i)) => blend.entry(i).at(p, own, around),
+                Some(Shown::One(i)) => blend.entry(i).bent(p, own, around),
                 Some(Shown::Two(i, k)) => {
-                    blend.entry(i - 1).at(p, own, around) * (1.0 - k) + blend.entry(i).at(p, own, around) * k
+                    let (before, after) = (blend.entry(i - 1), blend.entry(i));
+                    before.bent(p, own, around) * (1.0 - k) + after.bent(p, own, around) * k
                 }
                 Some(Shown::Each) => (0..blend.len()).fold(Vec3::ZERO, |sum, i| {
-                    sum + blend.entry(i).at(p, own, around) * blend.part(Shown::Each, i)
+                    sum + blend.entry(i).bent(p, own, around) * blend.part(Shown::Each, i)
                 }),
                 None => own,
             },
         };
-        unit(match &self.turn {
+        let turned = match &self.turn {
             None => moved,
             Some(turn) => times(&turn.1, moved),
-        })
+        };
+        if self.keeps_slope { turned } else { unit(turned) }
     }
 }
 
