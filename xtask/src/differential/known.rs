@@ -16,11 +16,12 @@ pub(super) struct Reworded {
 }
 
 /// All entries of this kind.
-pub(super) const REWORDED: [Reworded; 4] = [
+pub(super) const REWORDED: [Reworded; 5] = [
     Reworded { entry: "`interior_texture` stays inside.", reworded: with_polys },
     Reworded { entry: "A mesh in a clipped union", reworded: without_hierarchy },
     Reworded { entry: "Superellipsoids keep their far side.", reworded: with_isosurfaces },
     Reworded { entry: "A disc has no inside.", reworded: with_polygons },
+    Reworded { entry: "Surfaces of revolution have no false shadows.", reworded: with_sturm },
 ];
 
 /// One entry of docs/differences.md.
@@ -117,6 +118,18 @@ fn with_isosurfaces(scene: &Scene) -> Option<Scene> {
     })
 }
 
+/// With `sturm` for each surface of revolution.
+fn with_sturm(scene: &Scene) -> Option<Scene> {
+    rewritten(scene, |open| {
+        let start = open.find("sor {")? + "sor {".len();
+        let (count, points) = open[start..].split_once(',')?;
+        let count: usize = count.trim().parse().ok()?;
+        let (last, _) = points.match_indices('>').nth(count.checked_sub(1)?)?;
+        let (before, after) = open.split_at(open.len() - points.len() + last + 1);
+        Some(format!("{before} sturm{after}"))
+    })
+}
+
 /// With a square for each disc, clipped by a ball with the disc's centre and radius.
 fn with_polygons(scene: &Scene) -> Option<Scene> {
     rewritten(scene, |open| {
@@ -204,8 +217,9 @@ fn turn_back(node: &mut Node, is_inner: bool) {
     let is_texture = is_inner || node.open.starts_with("texture {");
     let is_pattern = is_texture && (has_textures(node) || node.said.iter().any(has_textures));
     if is_inner && is_pattern {
-        let is_even =
-            |size: &str| size.strip_prefix("scale ").is_some_and(|s| s.starts_with(|c: char| c.is_ascii_digit()));
+        let is_even = |size: &str| {
+            size.strip_prefix("scale ").is_some_and(|s| s.starts_with(|c: char| c.is_ascii_digit()))
+        };
         let turns = |open: &str| ["rotate ", "matrix ", "scale "].iter().any(|w| open.starts_with(w));
         node.said.retain(|said| !turns(&said.open) || is_even(&said.open));
     }
@@ -290,7 +304,7 @@ mod tests {
     #[test]
     fn each_surface_in_other_words_occurs() {
         for known in &REWORDED {
-            let scenes = (0..400).map(|n| solids::scene(9, n));
+            let scenes = (0..400).flat_map(|n| [solids::scene(9, n), looks::scene(9, n)]);
             let found = scenes.filter(|s| (known.reworded)(s).is_some()).count();
             assert!((1..360).contains(&found), "{}: {found}", known.entry);
         }
@@ -302,7 +316,8 @@ mod tests {
             said.extend(["scale 0.3", "scale <1, 2, 1>", "rotate 30*y", "translate x"].map(Node::text));
             Node { said, ..Node::block(open, Vec::new(), 0) }
         };
-        let plain = || Node { said: vec![Node::text("normal { bumps }")], ..Node::block("texture {", vec![], 0) };
+        let plain =
+            || Node { said: vec![Node::text("normal { bumps }")], ..Node::block("texture {", vec![], 0) };
         let entry = Node { close: "]", ..turned("[1 checker", vec![plain(), plain()]) };
         let map = Node::block("texture_map {", vec![entry], 1);
         let mut sphere = turned("sphere { 0, 1", vec![turned("texture { gradient x", vec![map])]);
@@ -318,6 +333,11 @@ mod tests {
         let open = "quadric { <1, 2, 3>, <-0.4, 5, 6>, <7, 8, 9>, -10";
         let all = numbers(open, "quadric {").unwrap();
         assert_eq!(all, ("", ["1", "2", "3", "-0.4", "5", "6", "7", "8", "9", "-10"], ""));
+        let sor = Node::block("sor { 3, <0.6, -1>, <0.5, 0>, <0.2, 1>", Vec::new(), 0);
+        let mut scene = solids::scene(9, 0);
+        scene.objects = vec![sor];
+        let sturm = with_sturm(&scene).unwrap().objects.remove(0);
+        assert_eq!(sturm.open, "sor { 3, <0.6, -1>, <0.5, 0>, <0.2, 1> sturm");
         let (_, [e, n], rest) = numbers("superellipsoid { <0.5, 1> pigment", "superellipsoid {").unwrap();
         assert_eq!((e, n, rest), ("0.5", "1", " pigment"));
     }
