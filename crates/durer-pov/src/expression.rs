@@ -345,8 +345,12 @@ impl Parser<'_> {
         Ok(crate::functions::begins_expression(keyword))
     }
 
-    /// Reads a switch such as `no_shadow on`; the word alone means `on`.
+    /// Reads a switch such as `no_shadow on`; the word alone means `on`. A colour after it, as in
+    /// `pigment { uv_mapping Tint }`, does not belong to it.
     pub(crate) fn switch_value(&mut self) -> Result<bool> {
+        if matches!(self.peek()?, Item::Value(Value::Number(_))) && self.starts_colour()? {
+            return Ok(true);
+        }
         Ok(crate::directives::truth(self.float_or(1.0)?))
     }
 }

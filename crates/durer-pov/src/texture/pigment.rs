@@ -3,6 +3,8 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_scene::{Fractal, FractalMap, Ramp};
+
 use super::pattern::PatternModifiers;
 use super::{ColorMap, Map, PatternKind};
 use crate::colour::Colour;
@@ -153,8 +155,21 @@ fn default_map(kind: &PatternKind) -> &'static [(f64, [f64; 3])] {
             (0.666, [1.0, 0.0, 1.0]),
             (1.0, [0.0, 1.0, 1.0]),
         ],
+        PatternKind::Ramp(ramp, _) if is_mandelbrot_set(ramp) => &[
+            (0.001, [0.0, 0.0, 0.0]),
+            (0.001, [0.0, 1.0, 1.0]),
+            (0.012, [1.0, 1.0, 0.0]),
+            (0.015, [1.0, 0.0, 1.0]),
+            (0.1, [0.0, 1.0, 1.0]),
+        ],
         _ => &[(0.0, [0.0; 3]), (1.0, [1.0; 3])],
     }
+}
+
+/// Whether a pattern is `mandel` with its own exponent. Unlike all other fractals it has colours of
+/// its own.
+fn is_mandelbrot_set(ramp: &Ramp) -> bool {
+    matches!(ramp, Ramp::Fractal(Fractal { map: FractalMap::Power(2), constant: None, .. }))
 }
 
 impl Parser<'_> {

@@ -71,24 +71,27 @@ pub(super) fn value(set: &Fractal, p: Point3) -> f64 {
         if escapes {
             return match set.exterior {
                 (1, _) => f64::from(k) / f64::from(set.iterations),
+                (6, factor) => factor * elementary::hypot(z.0, z.1),
                 (kind, factor) => factor * of_last(kind, z),
             };
         }
     }
     match set.interior {
         (1, factor) => least.sqrt() * factor,
+        // Unlike outside, not the root of the sum, and the factor counts for one part alone (facts of
+        // the scene language).
+        (6, factor) => z.0 * z.0 + factor * (z.1 * z.1),
         (kind, factor) => factor * of_last(kind, z),
     }
 }
 
-/// A number made of the last point.
+/// A number made of the last point, alike inside and outside.
 fn of_last(kind: u8, (re, im): Complex) -> f64 {
     match kind {
         2 => re,
         3 => im,
         4 => re * re,
         5 => im * im,
-        6 => elementary::hypot(re, im),
         _ => 1.0,
     }
 }
@@ -108,5 +111,21 @@ mod tests {
         close(value(FractalMap::Magnet1, None, 0.0, 0.0), 0.25);
         close(value(FractalMap::Magnet2, None, 0.01, 0.02), 0.440146819496);
         close(value(FractalMap::Magnet2, Some((0.5, 0.2)), 0.01, 0.02), 0.022360679775);
+    }
+
+    /// Values of POV-Ray.
+    #[test]
+    fn the_last_point_counts_by_its_length_outside_and_by_squares_inside() {
+        let value = |constant, iterations, x, y, factor| {
+            let (exterior, interior) = ((6, factor), (6, factor));
+            let map = FractalMap::Power(2);
+            value(&Fractal { map, constant, iterations, exterior, interior }, Point3::new(x, y, 0.0))
+        };
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} instead of {b}");
+        close(value(None, 2, 0.3, 0.2, 1.0), 0.28224001);
+        close(value(None, 2, 0.3, 0.2, 0.5), 0.19235201);
+        close(value(None, 2, 0.3, 0.2, 1.3), 0.33617281);
+        close(value(Some((0.3, 0.2)), 3, 0.3, 0.2, 1.0), 0.2718501492448);
+        close(value(Some((0.3, 0.2)), 3, 1.6, 1.3, 1.0) % 1.00001, 0.5142151988);
     }
 }
