@@ -11,7 +11,7 @@ use super::implicit::ImplicitKernel;
 use super::local_frame::{Own, OwnSketch};
 use super::quadric::Start;
 use super::rays::{From8, Nearest, RayLanes};
-use super::sink::First;
+use super::sink::{First, Sink8};
 use super::skin::{Skin, Slant};
 use crate::faces::form::Form;
 use core::any::{Any, TypeId};
@@ -100,6 +100,83 @@ pub(crate) trait PacketKernel: Debug + Send + Sync {
     /// own.
     fn shading(&self, _isa: Isa, _own: &Own, _h: &mut Vec3<F8>) -> bool {
         false
+    }
+}
+
+/// A kernel that finds the first crossings and all crossings by the same steps: surfaces of
+/// revolution, blobs and polynomials. It is a [`PacketKernel`] by that.
+pub(crate) trait SolidKernel: Debug + Send + Sync {
+    /// Working memory.
+    type Scratch: Any + Default + Send + Sync;
+
+    /// See [`PacketKernel::face_of`].
+    fn face_of(&self, _number: u32) -> u32 {
+        0
+    }
+
+    /// See [`PacketKernel::is_unbounded`].
+    fn is_unbounded(&self) -> bool {
+        false
+    }
+
+    /// See [`PacketKernel::is_operand`].
+    fn is_operand(&self) -> bool {
+        true
+    }
+
+    /// Passes the crossings of each ray, or only the first one of each face, and the doubts to `to`.
+    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut Self::Scratch);
+
+    /// See [`PacketKernel::holds`], for all rays.
+    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8);
+
+    /// See [`PacketKernel::skin`], within the rays' instruction set.
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin;
+}
+
+impl<T: SolidKernel> PacketKernel for T {
+    fn face_of(&self, number: u32) -> u32 {
+        SolidKernel::face_of(self, number)
+    }
+
+    fn is_unbounded(&self) -> bool {
+        SolidKernel::is_unbounded(self)
+    }
+
+    fn is_operand(&self) -> bool {
+        SolidKernel::is_operand(self)
+    }
+
+    fn first(
+        &self,
+        seen: &KernelRays<'_>,
+        query: &PacketQuery<'_>,
+        nearest: &mut Nearest,
+        scratch: &mut KernelScratch,
+    ) {
+        self.pass(seen, &mut query.first(nearest), scratch.of());
+    }
+
+    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
+        self.pass(seen, to, scratch.of());
+    }
+
+    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
+        self.sides(seen, at)
+    }
+
+    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = self.points(own, at),
+        );
+    }
+
+    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
+        isa.run_in_lanes(
+            #[inline(always)]
+            || *to = Slant::of(&self.points(own, at)),
+        );
     }
 }
 

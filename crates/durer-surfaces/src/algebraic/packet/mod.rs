@@ -20,13 +20,13 @@
 
 mod rays;
 
-use crate::packet::closest::PacketQuery;
-use crate::packet::crossings::Crossings;
-use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use self::rays::PolynomialScratch;
+use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::{Own, largest};
-use crate::packet::rays::{NEVER, Nearest, SLACK};
-use crate::packet::skin::{Skin, Slant};
-use durer_math::{F8, Isa, U, Vec3};
+use crate::packet::rays::{NEVER, SLACK};
+use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
+use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
 
 /// A polynomial of degree below `N`: all coefficients of degree up to `order`, by falling powers of
@@ -145,7 +145,7 @@ impl<const N: usize> Terms<N> {
 
     /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
-    fn points(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
+    fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         let m = largest(y);
         let Sizes { f: size, slope, bend } = self.sizes(m + 1.0 / 64.0);
@@ -160,44 +160,23 @@ impl<const N: usize> Terms<N> {
     }
 }
 
-impl<const N: usize> PacketKernel for Terms<N> {
-    fn face_of(&self, _number: u32) -> u32 {
-        0
-    }
+impl<const N: usize> SolidKernel for Terms<N> {
+    type Scratch = PolynomialScratch<N>;
 
     fn is_unbounded(&self) -> bool {
         true
     }
 
-    fn first(
-        &self,
-        seen: &KernelRays<'_>,
-        query: &PacketQuery<'_>,
-        nearest: &mut Nearest,
-        scratch: &mut KernelScratch,
-    ) {
-        self.meet(seen, &mut query.first(nearest), scratch.of());
+    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut PolynomialScratch<N>) {
+        self.meet(seen, to, scratch);
     }
 
-    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
-        self.meet(seen, to, scratch.of());
+    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
+        self.holds(seen, at)
     }
 
-    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
-        self.sides(seen, at)
-    }
-
-    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = self.points(own, at.h, at.h1),
-        );
-    }
-
-    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = Slant::of(&self.points(own, at.h, at.h1)),
-        );
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.h, at.h1)
     }
 }

@@ -65,7 +65,7 @@ enum LineThird {
 
 /// Working memory for eight rays and one surface.
 #[derive(Debug)]
-pub(super) struct PolynomialScratch<const N: usize> {
+pub(crate) struct PolynomialScratch<const N: usize> {
     /// The rays in the surface's own coordinates.
     o: Vec3<F8>,
     d: Vec3<F8>,
@@ -172,7 +172,7 @@ impl<const N: usize> Terms<N> {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(super) fn sides(
+    pub(super) fn holds(
         &self,
         &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),

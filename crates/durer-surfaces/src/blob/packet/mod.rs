@@ -14,14 +14,14 @@ mod groups;
 mod rays;
 
 use self::groups::{Group, groups};
-use crate::packet::closest::PacketQuery;
-use crate::packet::crossings::Crossings;
-use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use self::rays::BlobScratch;
+use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::{Own, dot, largest};
-use crate::packet::rays::{NEVER, Nearest, SLACK};
-use crate::packet::skin::{Skin, Slant};
+use crate::packet::rays::{NEVER, SLACK};
+use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
 use durer_math::scale::pow2;
-use durer_math::{Aabb, F8, Isa, U, Vec3};
+use durer_math::{Aabb, F8, U, Vec3};
 
 /// Covers results below the normal range.
 const TINY: f64 = pow2(-500);
@@ -126,7 +126,7 @@ impl Fields {
 
     /// `f` and its gradient at points `h` of the surface, with `|h|₁`.
     #[inline(always)]
-    fn points(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
+    fn skin(&self, own: &Own, h: Vec3<F8>, h1: F8) -> Skin {
         let y = own.point(h);
         // For rays that start there, the kernel begins at a place that may be this far from the
         // start (`rays.rs`).
@@ -148,40 +148,19 @@ impl Field {
     }
 }
 
-impl PacketKernel for Fields {
-    fn face_of(&self, _number: u32) -> u32 {
-        0
+impl SolidKernel for Fields {
+    type Scratch = BlobScratch;
+
+    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut BlobScratch) {
+        self.meet(seen, to, scratch);
     }
 
-    fn first(
-        &self,
-        seen: &KernelRays<'_>,
-        query: &PacketQuery<'_>,
-        nearest: &mut Nearest,
-        scratch: &mut KernelScratch,
-    ) {
-        self.meet(seen, &mut query.first(nearest), scratch.of());
+    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
+        self.holds(seen, at)
     }
 
-    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
-        self.meet(seen, to, scratch.of());
-    }
-
-    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
-        self.sides(seen, at)
-    }
-
-    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = self.points(own, at.h, at.h1),
-        );
-    }
-
-    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = Slant::of(&self.points(own, at.h, at.h1)),
-        );
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.h, at.h1)
     }
 }

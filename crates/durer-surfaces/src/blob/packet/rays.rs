@@ -65,7 +65,7 @@ struct BlobRays8 {
 
 /// Working memory for eight rays and one blob.
 #[derive(Debug)]
-pub(super) struct BlobScratch {
+pub(crate) struct BlobScratch {
     sight: BlobRays8,
     pieces: ArrayVec<Piece8, MOST>,
     charge: F8,
@@ -200,7 +200,7 @@ impl Fields {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(super) fn sides(
+    pub(super) fn holds(
         &self,
         &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),

@@ -23,14 +23,14 @@
 
 mod rays;
 
+use self::rays::RevolutionScratch;
 use crate::packet::PacketFilter;
-use crate::packet::closest::PacketQuery;
-use crate::packet::crossings::Crossings;
-use crate::packet::kernel::{FacePoints, KernelRays, KernelScratch, PacketKernel};
+use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::Own;
-use crate::packet::rays::{NEVER, Nearest};
-use crate::packet::skin::{Skin, Slant};
-use durer_math::{F8, Isa, U, Vec3};
+use crate::packet::rays::NEVER;
+use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
+use durer_math::{F8, U, Vec3};
 
 /// A wall between two heights.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +111,7 @@ impl RevolutionKernel {
 
     /// `f` and its gradient at points `h` of a face, with `|h|₁`.
     #[inline(always)]
-    fn points(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
+    fn skin(&self, own: &Own, face: usize, h: Vec3<F8>, h1: F8) -> Skin {
         let (y, e) = (own.point(h), own.point_error(h1));
         let count = self.walls.len();
         if face >= count {
@@ -160,7 +160,9 @@ fn value(wall: &RevolutionWall, n: F8, v: F8) -> F8 {
     (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))
 }
 
-impl PacketKernel for RevolutionKernel {
+impl SolidKernel for RevolutionKernel {
+    type Scratch = RevolutionScratch;
+
     fn face_of(&self, number: u32) -> u32 {
         number.saturating_sub(self.walls.len() as u32 - 1).min(2)
     }
@@ -169,35 +171,16 @@ impl PacketKernel for RevolutionKernel {
         self.walls.len() + 2 <= PacketFilter::FACES
     }
 
-    fn first(
-        &self,
-        seen: &KernelRays<'_>,
-        query: &PacketQuery<'_>,
-        nearest: &mut Nearest,
-        scratch: &mut KernelScratch,
-    ) {
-        self.meet(seen, &mut query.first(nearest), scratch.of());
+    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut RevolutionScratch) {
+        self.meet(seen, to, scratch);
     }
 
-    fn crossings(&self, seen: &KernelRays<'_>, to: &mut Crossings, scratch: &mut KernelScratch) {
-        self.meet(seen, to, scratch.of());
+    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
+        self.holds(seen, at)
     }
 
-    fn holds(&self, seen: &KernelRays<'_>, at: (F8, F8), _asked: u8, _: &mut KernelScratch) -> (u8, u8) {
-        self.sides(seen, at)
-    }
-
-    fn skin(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Skin) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = self.points(own, at.face, at.h, at.h1),
-        );
-    }
-
-    fn slant(&self, isa: Isa, own: &Own, at: &FacePoints, to: &mut Slant) {
-        isa.run_in_lanes(
-            #[inline(always)]
-            || *to = Slant::of(&self.points(own, at.face, at.h, at.h1)),
-        );
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.face, at.h, at.h1)
     }
 }

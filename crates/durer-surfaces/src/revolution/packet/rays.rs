@@ -40,7 +40,7 @@ struct HeightCrossing8 {
 
 /// Working memory for eight rays and one surface.
 #[derive(Debug, Default)]
-pub(super) struct RevolutionScratch {
+pub(crate) struct RevolutionScratch {
     sight: RevolutionRays8,
     low: HeightCrossing8,
     high: HeightCrossing8,
@@ -106,7 +106,7 @@ impl RevolutionKernel {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(super) fn sides(
+    pub(super) fn holds(
         &self,
         &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
         (t, e): (F8, F8),
