@@ -1,4 +1,4 @@
-//! How far an unbounded quadric solid reaches between two planes across an axis.
+//! How far a quadric solid reaches between two planes across an axis.
 //!
 //! Let `y` be the coordinate across the planes and `w` the other two. There the solid is
 //!
@@ -10,10 +10,13 @@
 //!
 //! ```text
 //!   (w + M⁻¹ p)·M (w + M⁻¹ p) <= ρ(y) = p·M⁻¹ p - r,   |w_i + (M⁻¹ p)_i| <= √(ρ (M⁻¹)_ii)
+//!
+//!   ρ(y) = α y² + 2 β y + γ,   α = q_wy·M⁻¹ q_wy - q_yy,   β = b_w·M⁻¹ q_wy - b_y,   γ = b_w·M⁻¹ b_w - c
 //! ```
 //!
-//! All of it is computed in intervals, the coefficients with the errors of the maps they have gone
-//! through, and `y` in equal pieces.
+//! If `α` is not negative, `ρ` is convex and its maximum is at an end. A paraboloid along the axis,
+//! with `α = 0`, ends by itself where `ρ` vanishes. All of it is computed in intervals, the
+//! coefficients with the errors of the maps they have gone through, and `y` in equal pieces.
 
 use super::form::Form;
 use durer_math::{Aabb, Dd, EFloat, Interval, Point3};
@@ -41,6 +44,18 @@ impl QuadricExtent {
         Self { centre, q, b: form.b.each_ref().map(known), c: known(&form.c) }
     }
 
+    /// The solids on both sides of the surface with the coefficients of `x²`, `y²`, `z²`, `xy`,
+    /// `xz`, `yz`, `x`, `y`, `z` and 1.
+    pub(crate) fn of_both_sides(coefficients: &[f64; 10]) -> [Self; 2] {
+        [1.0, -1.0].map(|sign| {
+            let [xx, yy, zz, xy, xz, yz, x, y, z, c] = coefficients.map(|k| Interval::from(sign * k));
+            let half = Interval::from(0.5);
+            let (xy, xz, yz) = (xy * half, xz * half, yz * half);
+            let q = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+            Self { centre: Point3::ORIGIN, q, b: [x * half, y * half, z * half], c }
+        })
+    }
+
     /// A box that holds the part of the solid in `region`.
     pub fn bounds_within(&self, region: &Aabb) -> Aabb {
         let mut found = *region;
@@ -48,14 +63,12 @@ impl QuadricExtent {
             if found.is_empty() {
                 return Aabb::EMPTY;
             }
-            if found.min[axis].is_finite() && found.max[axis].is_finite() {
-                found = self.cut(axis, &found);
-            }
+            found = self.cut(axis, &found);
         }
         if found.is_empty() { Aabb::EMPTY } else { found }
     }
 
-    /// The part of `region`, which is bounded along `axis`, that the sections across it reach.
+    /// The part of `region` that the sections across `axis` reach.
     fn cut(&self, axis: usize, region: &Aabb) -> Aabb {
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
         let (ii, jj, ij) = (self.q[i][i], self.q[j][j], self.q[i][j]);
@@ -64,27 +77,53 @@ impl QuadricExtent {
             return *region;
         }
         let (over_i, over_j, over_ij) = (jj / det, ii / det, -ij / det);
-        let (lo, hi) = (region.min[axis], region.max[axis]);
+        let solve = |[a, b]: [Interval; 2]| [over_i * a + over_ij * b, over_ij * a + over_j * b];
+        let dot = |[a, b]: [Interval; 2], [c, d]: [Interval; 2]| a * c + b * d;
+        let (fixed, slope) = ([self.b[i], self.b[j]], [self.q[i][axis], self.q[j][axis]]);
+        // The centre of a section is at -(m + n y).
+        let (m, n) = (solve(fixed), solve(slope));
+        let alpha = dot(slope, n) - self.q[axis][axis];
+        let beta = (dot(fixed, n) - self.b[axis]) * Interval::from(2.0);
+        let gamma = dot(fixed, m) - self.c;
+        let rho = |y: Interval| (alpha * y + beta) * y + gamma;
+
+        let centre = Interval::from(self.centre[axis]);
+        let (mut lo, mut hi) = (region.min[axis], region.max[axis]);
+        if alpha == Interval::from(0.0) {
+            let end = centre - gamma / beta;
+            if beta.lo > 0.0 {
+                lo = lo.max(end.lo);
+            } else if beta.hi < 0.0 {
+                hi = hi.min(end.hi);
+            }
+        }
+        if lo > hi {
+            return Aabb::EMPTY;
+        }
+        if !(lo.is_finite() && hi.is_finite()) {
+            return *region;
+        }
         let step = (hi - lo) / f64::from(PIECES);
         let mut all = Aabb::EMPTY;
         for piece in 0..PIECES {
             let from = if piece == 0 { lo } else { lo + step * f64::from(piece) };
             let to = if piece + 1 == PIECES { hi } else { lo + step * f64::from(piece + 1) };
-            let y = Interval { lo: from, hi: to.max(from) } - Interval::from(self.centre[axis]);
-            let twice = Interval::from(2.0);
-            let p = self.b[i] + self.q[i][axis] * y;
-            let s = self.b[j] + self.q[j][axis] * y;
-            let r = self.c + (twice * self.b[axis] + self.q[axis][axis] * y) * y;
-            let room = p.square() * over_i + s.square() * over_j + twice * p * s * over_ij - r;
-            if room.hi < 0.0 {
+            let y = Interval { lo: from, hi: to.max(from) } - centre;
+            let most = if alpha.lo >= 0.0 {
+                let at = |y: f64| rho(Interval::from(y) - centre).hi;
+                at(from).max(at(to))
+            } else {
+                rho(y).hi
+            };
+            if most < 0.0 {
                 continue;
             }
             let reach = |over: Interval| {
-                let most = (Interval { lo: 0.0, hi: room.hi } * over).sqrt();
+                let most = (Interval { lo: 0.0, hi: most } * over).sqrt();
                 Interval { lo: -most.hi, hi: most.hi }
             };
-            let at_i = reach(over_i) - (p * over_i + s * over_ij) + Interval::from(self.centre[i]);
-            let at_j = reach(over_j) - (p * over_ij + s * over_j) + Interval::from(self.centre[j]);
+            let at_i = reach(over_i) - (m[0] + n[0] * y) + Interval::from(self.centre[i]);
+            let at_j = reach(over_j) - (m[1] + n[1] * y) + Interval::from(self.centre[j]);
             let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
             (min[axis], max[axis]) = (from, to);
             (min[i], max[i]) = (at_i.lo, at_i.hi);

@@ -11,12 +11,13 @@
 
 use crate::faces::boolean_faces::QuadricFaces;
 use crate::faces::chart::sphere_chart;
+use crate::faces::extent::QuadricExtent;
 use crate::faces::chart::{Chart, Frame, sheared};
 use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use core::cmp::Ordering;
 use durer_math::eft::exponent;
-use durer_math::{Aabb, Dd, Dyadic, EFloat, Interval, Point3, Ring, Vec3};
+use durer_math::{Aabb, Dd, Dyadic, EFloat, Point3, Ring, Vec3};
 use durer_roots::quadratic::exact_sign;
 
 /// The general quadric, as a solid where its polynomial is negative.
@@ -311,7 +312,10 @@ impl QuadricFaces for GeneralQuadric {
     }
 
     fn bounds_within(&self, slab: &Aabb) -> Aabb {
-        (0..3).fold(self.bounds(), |b, axis| b.intersection(self.slab_bounds(axis, slab)))
+        // Each of the two solids contains the surface.
+        QuadricExtent::of_both_sides(&self.coefficients)
+            .iter()
+            .fold(self.bounds().intersection(*slab), |bounds, solid| solid.bounds_within(&bounds))
     }
 
     fn tip(&self, _: usize) -> Option<Vec3> {
@@ -329,53 +333,6 @@ impl QuadricFaces for GeneralQuadric {
 }
 
 impl GeneralQuadric {
-    /// A box around the part of the surface between two planes across an axis, if that is an axis
-    /// of the quadric and all its sections are ellipses:
-    ///
-    /// ```text
-    ///   A (x - m)² + B (y - n)² = s(z) = A m² + B n² - (C z² + I z + J)
-    ///
-    ///   A, B > 0 >= C,    m = -G / 2A,    n = -H / 2B
-    /// ```
-    ///
-    /// `s` is convex, and so the largest section is at one of the ends. A paraboloid, with `C = 0`,
-    /// also ends by itself where `s` vanishes.
-    fn slab_bounds(&self, axis: usize, slab: &Aabb) -> Aabb {
-        let k = &self.coefficients;
-        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-        let sign = k[i].signum();
-        let k = k.map(|x| Interval::from(sign * x));
-        let zero = Interval::from(0.0);
-        if [3, 4, 5].into_iter().any(|mixed| k[mixed] != zero)
-            || k[i].lo <= 0.0
-            || k[j].lo <= 0.0
-            || k[axis].hi > 0.0
-        {
-            return Aabb::UNBOUNDED;
-        }
-        let two = Interval::from(2.0);
-        let middle = |i: usize| -(k[6 + i] / (two * k[i]));
-        let rest = k[i] * middle(i).square() + k[j] * middle(j).square() - k[9];
-        let size = |z: f64| {
-            let z = Interval::from(z);
-            rest - (k[axis] * z.square() + k[6 + axis] * z)
-        };
-        let (mut low, mut high) = (slab.min[axis], slab.max[axis]);
-        if k[axis] == zero && k[6 + axis] != zero {
-            let end = rest / k[6 + axis];
-            if k[6 + axis].lo < 0.0 { low = low.max(end.lo) } else { high = high.min(end.hi) }
-        }
-        let most = size(low).hi.max(size(high).hi).max(0.0);
-        let mut bounds = Aabb::UNBOUNDED;
-        (bounds.min[axis], bounds.max[axis]) = (low, high);
-        for i in [i, j] {
-            let half = (Interval::from(most) / k[i]).sqrt();
-            (bounds.min[i], bounds.max[i]) = ((middle(i) - half).lo, (middle(i) + half).hi);
-        }
-        // Infinite ends give no bound, and make the others NaN.
-        if bounds.is_bounded() { bounds } else { Aabb::UNBOUNDED }
-    }
-
     /// The box of a solid ellipsoid: centre `-Q⁻¹b`, half-widths `√(K (Q⁻¹)ᵢᵢ)` with
     /// `K = b·Q⁻¹b - c`.
     fn ellipsoid_bounds(&self) -> Option<Aabb> {
