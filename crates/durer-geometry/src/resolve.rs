@@ -56,9 +56,13 @@ impl Geometry {
             return (arena.resolve(self.isa, hit.slot, ray, &hit.root(), need), arena.part(hit.slot).0);
         };
         let inner = placement - instance.first_placement;
-        let local = ray.through(&instance.affine);
-        let (point, part) = instance.geometry.resolve_in(&local, inner, hit, need);
-        (point.placed(&instance.affine), part)
+        let mut part = 0;
+        let point = ray.resolve_through(&instance.affine, |local| {
+            let (point, its) = instance.geometry.resolve_in(local, inner, hit, need);
+            part = its;
+            point
+        });
+        (point, part)
     }
 
     /// The exact side of the union of all solids on which a point lies. A point on the common

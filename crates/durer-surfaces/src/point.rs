@@ -9,9 +9,10 @@ pub struct SurfacePoint {
     pub p: Point3,
     /// Per-axis bound on the distance to the exact crossing.
     pub dp: Vec3,
-    /// A distance along the normal that provably leaves the surface: `p + off ng` is strictly in
-    /// front, `p - off ng` strictly behind, also after each coordinate is rounded away from `p`.
-    /// Usually far smaller than `dp`.
+    /// A distance along the normal that provably leaves the surface: `p + aside + off ng` is strictly
+    /// in front, `p + aside - off ng` strictly behind, also after each coordinate is rounded away.
+    /// Usually far smaller than `dp`. Where the surface bends within the rounding of coordinates
+    /// (`bend off >= 1/2`), as a thin cylinder far away, neither is proven.
     pub off: f64,
     /// The geometric normal: unit length, outward for solids, as stored for open surfaces.
     pub ng: Normal3,
@@ -33,6 +34,10 @@ pub struct SurfacePoint {
     pub bend: f64,
     /// See `bend`.
     pub slack: f64,
+    /// The way from a tip at which two bodies meet, such as the two halves of a cone, to the middle
+    /// between the starts on both sides: no normal there leads out of both bodies whose opposite
+    /// leads into one. Zero elsewhere.
+    pub aside: Vec3,
     /// The primitive the point lies on; set by the geometry that holds it.
     pub source: Option<Source>,
 }
@@ -61,6 +66,7 @@ impl SurfacePoint {
             dndv: Vec3::ZERO,
             bend: 0.0,
             slack: 0.0,
+            aside: Vec3::ZERO,
             source: None,
         }
     }
@@ -110,6 +116,7 @@ impl SurfacePoint {
     #[inline(always)]
     fn start(&self, side: RaySide) -> Point3 {
         let step = if side == RaySide::Front { self.off } else { -self.off };
+        let from = self.p + self.aside;
         let axis = |p: f64, n: f64| {
             let move_by = step * n;
             let q = p + move_by;
@@ -121,6 +128,6 @@ impl SurfacePoint {
                 q
             }
         };
-        Point3::new(axis(self.p.x, self.ng.x), axis(self.p.y, self.ng.y), axis(self.p.z, self.ng.z))
+        Point3::new(axis(from.x, self.ng.x), axis(from.y, self.ng.y), axis(from.z, self.ng.z))
     }
 }

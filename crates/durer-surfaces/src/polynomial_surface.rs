@@ -3,8 +3,7 @@
 //!
 //! Along a ray the polynomial has one unknown (`roots`). The inside is where it is negative.
 
-use crate::faces::chart::sphere_chart;
-use crate::faces::chart::{Chart, Frame, sheared, tangents};
+use crate::faces::chart::{Chart, Frame, sheared, sphere_chart, tangents};
 use crate::point::least_step;
 use crate::ray::PREVIEW_WIDTH;
 use crate::{CentredRay, End, LocalPoint, LocalRay, Need, RingRay, Root, RootKind, Side, Sink, SurfacePoint};

@@ -13,8 +13,7 @@
 //! *spindle*); the part that is inside twice is then outside, by the sign of `f`. `r = R` is a
 //! *horn*.
 
-use crate::faces::chart::length;
-use crate::faces::chart::{Chart, Frame};
+use crate::faces::chart::{Chart, Frame, length};
 use crate::faces::form::FLOOR;
 use crate::packet::FilterSource;
 use crate::polynomial_surface::{self, PolynomialSurface};

@@ -228,7 +228,9 @@ impl Hits8 {
         self.t.0[i] = hit.t;
         // The factor pays for the rounding of the differences.
         self.t_error.0[i] = (hit.t - hit.t_lo).max(hit.t_hi - hit.t) * (1.0 + 2.0 * U);
-        (self.p.x.0[i], self.p.y.0[i], self.p.z.0[i]) = (point.p.x, point.p.y, point.p.z);
+        // At a double tip, the middle between the starts.
+        let p = point.p + point.aside;
+        (self.p.x.0[i], self.p.y.0[i], self.p.z.0[i]) = (p.x, p.y, p.z);
         self.ng.set_lane(i, point.ng.to_vec());
         self.ns.set_lane(i, point.ns.to_vec());
         self.off.0[i] = point.off;

@@ -72,7 +72,7 @@ impl<S: Accelerate> Surface for Placed<S> {
 
     #[inline(always)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
-        place(&self.map, &self.surface.resolve(&ray.through(&self.map), root, need))
+        ray.resolve_through(&self.map, |local| self.surface.resolve(local, root, need))
     }
 
     fn solidity(&self) -> Solidity {
@@ -155,17 +155,37 @@ fn inner_image(map: &Affine, inner: &Aabb) -> Aabb {
     if image.is_empty() { Aabb::EMPTY } else { image }
 }
 
-impl SurfacePoint {
-    /// The point as `map` places its surface, its bounds in the new frame.
-    #[must_use]
-    pub fn placed(&self, map: &Affine) -> Self {
-        place(map, self)
+impl LocalRay<'_> {
+    /// The point that `resolve` finds on the ray in the frame of a surface, as `map` places that
+    /// surface, with its bounds.
+    ///
+    /// The frame may know a point near a tip more precisely than the world's coordinates can say.
+    /// The tip is then where the ray leaves the surface, not the tangent plane: the point is
+    /// resolved once more, on a ray that is known no better than that.
+    pub fn resolve_through(
+        &self,
+        map: &Affine,
+        mut resolve: impl FnMut(&LocalRay<'_>) -> SurfacePoint,
+    ) -> SurfacePoint {
+        let mut local = self.through(map);
+        let (placed, room) = place(map, &resolve(&local));
+        // Once for all the maps around.
+        if room > 0.0 && !local.is_widened {
+            local.is_widened = true;
+            local.o_err += Vec3::new(room, room, room);
+            let tip = resolve(&local);
+            if tip.slack > 0.0 {
+                return place(map, &tip).0;
+            }
+        }
+        placed
     }
 }
 
-/// A point of the surface as the map places it, with its bounds.
+/// A point of the surface as the map places it, with its bounds, and how far in the surface's frame
+/// a tip may be: zero where the tangent plane proves the start.
 #[inline(never)]
-pub(crate) fn place(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
+fn place(map: &Affine, local: &SurfacePoint) -> (SurfacePoint, f64) {
     Isa::detect().run(
         #[inline(always)]
         || place_here(map, local),
@@ -173,7 +193,7 @@ pub(crate) fn place(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
 }
 
 #[inline(always)]
-fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
+fn place_here(map: &Affine, local: &SurfacePoint) -> (SurfacePoint, f64) {
     let p_l = local.p.to_vec();
     let p = map.centre() + map.vector(p_l);
     let least = least_step(p);
@@ -183,7 +203,7 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     let dp = (map.linear_reach(local.dp) + rho) * (1.0 + 4.0 * U);
 
     if local.bend == f64::INFINITY {
-        return place_tip(map, local, SurfacePoint::new(p, dp, 0.0, local.ng), rho);
+        return (place_tip(map, local, SurfacePoint::new(p, dp, 0.0, local.ng), rho), 0.0);
     }
     // Heights: a world displacement Δ changes the height over the local tangent plane by w·Δ, w =
     // L⁻ᵀ n.
@@ -208,11 +228,12 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     let eta = eta * (1.0 + 32.0 * U);
     // off |w| - bend |L⁻¹|² off² >= η, with |L⁻¹ Δ|² <= 2 |L⁻¹|² (off² + stray²).
     let square = sure * sure - 4.0 * bend * eta;
-    let off = if sure > 0.0 && square > 0.0 {
-        2.0 * eta / (sure + square.sqrt())
+    let (off, room) = if sure > 0.0 && square > 0.0 {
+        (2.0 * eta / (sure + square.sqrt()), 0.0)
     } else {
-        // So near a tip that only distance helps.
-        (4.0 * eta / bend.max(f64::MIN_POSITIVE)).sqrt().max(4.0 * eta / length)
+        // The normal may turn by about one radian within 1 / bend.
+        let room = (reach * stray).max(1.0 / local.bend);
+        ((4.0 * eta / bend.max(f64::MIN_POSITIVE)).sqrt().max(4.0 * eta / length), room)
     };
     let off = off * (1.0 + 32.0 * U) + TINY;
 
@@ -225,7 +246,7 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     point.uv = local.uv;
     point.bend = bend / sure.max(f64::MIN_POSITIVE);
     if local.dpdu == Vec3::ZERO && local.dpdv == Vec3::ZERO {
-        return point;
+        return (point, room);
     }
     point.dpdu = map.vector(local.dpdu);
     point.dpdv = map.vector(local.dpdv);
@@ -235,7 +256,7 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> SurfacePoint {
     };
     point.dndu = change(local.dndu);
     point.dndv = change(local.dndv);
-    point
+    (point, room)
 }
 
 /// A tip: it has no tangent plane, so its normal goes along as a vector, and rays leave along it.
@@ -249,6 +270,7 @@ fn place_tip(map: &Affine, local: &SurfacePoint, mut point: SurfacePoint, rho: V
     let reach = map.inverse_norm();
     let stray = rho.length() + 4.0 * U * point.p.to_vec().length() + 16.0 * U * map.linear_norm() * local.off;
     let factor = (reach * stray * (1.0 + 16.0 * U) / local.slack * 2.0).max(1.0);
+    point.aside = map.vector(local.aside) * factor;
     point.off = local.off * length * factor * (1.0 + 32.0 * U) + TINY;
     point.bend = f64::INFINITY;
     point.slack = local.slack * factor / reach * 0.5;

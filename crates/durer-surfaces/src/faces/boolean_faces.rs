@@ -12,7 +12,7 @@
 //!   all faces that are zero there;
 //! - a line that lies in a face is inside that face, so other faces end the interval.
 
-use crate::faces::chart::{Chart, Frame};
+use crate::faces::chart::{Chart, Frame, Tip};
 use crate::faces::form::{Form, Rounded};
 use crate::ray::PREVIEW_WIDTH;
 use crate::{CentredRay, End, LocalPoint, RingRay, Root, RootKind, Side, Sink};
@@ -69,9 +69,8 @@ pub trait QuadricFaces: Send + Sync {
     /// Surface coordinates on a face, at `y` (close to the face), where the unit normal is `n`.
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
 
-    /// The normal at a point where the face's gradient vanishes (the tip of a cone), if there is
-    /// one. The form must not vanish along it.
-    fn tip(&self, _face: usize) -> Option<Vec3> {
+    /// The tip of a face, if it has one.
+    fn tip(&self, _face: usize) -> Option<Tip> {
         None
     }
 }
@@ -86,7 +85,7 @@ pub(crate) trait Faces: Send + Sync {
     /// See [`QuadricFaces::chart`].
     fn chart(&self, face: usize, y: Vec3, n: Vec3) -> Chart;
     /// See [`QuadricFaces::tip`].
-    fn tip(&self, face: usize) -> Option<Vec3>;
+    fn tip(&self, face: usize) -> Option<Tip>;
 }
 
 impl<S: QuadricFaces> Faces for S {
@@ -105,7 +104,7 @@ impl<S: QuadricFaces> Faces for S {
         QuadricFaces::chart(self, face, y, n)
     }
 
-    fn tip(&self, face: usize) -> Option<Vec3> {
+    fn tip(&self, face: usize) -> Option<Tip> {
         QuadricFaces::tip(self, face)
     }
 }

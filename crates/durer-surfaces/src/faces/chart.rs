@@ -1,4 +1,4 @@
-//! A surface's own coordinates, and its texture coordinates at a point.
+//! A surface's own coordinates, its tips, and its texture coordinates at a point.
 
 use durer_math::eft::scale2;
 use durer_math::scale::exponent;
@@ -25,6 +25,15 @@ pub struct Chart {
     pub dpdu: Vec3,
     /// The derivative of the position by v, in units of the frame.
     pub dpdv: Vec3,
+}
+
+/// A point at which a face's gradient vanishes, such as the tip of a cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tip {
+    /// The outward normal, or the axis of a double tip. The form must not vanish along it.
+    pub normal: Vec3,
+    /// Whether the face goes on to the other side, as both halves of a cone do.
+    pub is_double: bool,
 }
 
 /// Two unit vectors across a unit vector, all three right-handed: T. Duff et al., "Building an

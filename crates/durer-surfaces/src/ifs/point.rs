@@ -3,7 +3,6 @@
 
 use super::leaf::{HalfSpace, Leaf, outward};
 use super::{IfsLeaf, System, word_of};
-use crate::compose::affine::place;
 use crate::planar::{PlaneForm, Probe, ThreePoints, clearance, dot, exact3, foot_point, unit};
 use crate::{All, AxisBox, LocalRay, Need, RingRay, Root, Sphere, Surface, SurfacePoint};
 use durer_math::eft::{exponent, scale2};
@@ -85,7 +84,7 @@ impl System {
     fn point_below(&self, ray: &LocalRay<'_>, letters: &[usize], root: &Root, need: Need) -> SurfacePoint {
         let Some((&letter, rest)) = letters.split_first() else { return self.leaf_point(ray, root, need) };
         match self.frames.map(letter) {
-            Some(map) => place(map, &self.point_below(&ray.through(map), rest, root, need)),
+            Some(map) => ray.resolve_through(map, |local| self.point_below(local, rest, root, need)),
             None => self.leaf_point(ray, root, need),
         }
     }

@@ -5,8 +5,7 @@
 //! defines its polynomial ([`Wall`]) in its own file.
 
 use crate::faces::boolean_faces::QuadricFaces;
-use crate::faces::chart::length;
-use crate::faces::chart::{Chart, Frame, sheared};
+use crate::faces::chart::{Chart, Frame, Tip, length, sheared};
 use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use durer_math::eft::{exponent, scale2};
@@ -193,11 +192,13 @@ impl<W: Wall> QuadricFaces for AxialShape<W> {
         Chart { dpdu: chart.dpdu.map(|d| scale2(d, -k)), dpdv: chart.dpdv.map(|d| scale2(d, -k)), ..chart }
     }
 
-    fn tip(&self, face: usize) -> Option<Vec3> {
+    fn tip(&self, face: usize) -> Option<Tip> {
+        let [from, to] = self.ends.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let holds_origin = from <= 0.0 && to >= 0.0;
         // If the piece starts at the tip, it ends there: the outside is below.
-        let below = self.ends.is_some_and(|[from, _]| from == 0.0);
-        let holds_origin = self.ends.is_none_or(|[from, to]| from <= 0.0 && to >= 0.0);
-        (face == 0 && self.wall.has_tip() && holds_origin).then_some(if below { -Vec3::Z } else { Vec3::Z })
+        let normal = if from == 0.0 { -Vec3::Z } else { Vec3::Z };
+        let is_double = from < 0.0 && to > 0.0;
+        (face == 0 && self.wall.has_tip() && holds_origin).then_some(Tip { normal, is_double })
     }
 }
 

@@ -10,9 +10,8 @@
 //! the signs of those polynomials' coefficients are computed in exact arithmetic.
 
 use crate::faces::boolean_faces::QuadricFaces;
-use crate::faces::chart::sphere_chart;
+use crate::faces::chart::{Chart, Frame, Tip, sheared, sphere_chart};
 use crate::faces::extent::QuadricExtent;
-use crate::faces::chart::{Chart, Frame, sheared};
 use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use core::cmp::Ordering;
@@ -318,10 +317,11 @@ impl QuadricFaces for GeneralQuadric {
             .fold(self.bounds().intersection(*slab), |bounds, solid| solid.bounds_within(&bounds))
     }
 
-    fn tip(&self, _: usize) -> Option<Vec3> {
+    fn tip(&self, _: usize) -> Option<Tip> {
         use QuadricKind as K;
         let singular = [K::Cone, K::Point, K::IntersectingPlanes, K::Line, K::CoincidentPlanes];
-        singular.contains(&self.kind).then_some(self.tip)
+        let is_double = matches!(self.kind, K::Cone | K::IntersectingPlanes);
+        singular.contains(&self.kind).then_some(Tip { normal: self.tip, is_double })
     }
 
     /// Longitude and latitude about the centre.

@@ -12,7 +12,7 @@
 //! in the same way.
 
 use crate::faces::boolean_faces::QuadricFaces;
-use crate::faces::chart::{Chart, Frame, sheared, tangents};
+use crate::faces::chart::{Chart, Frame, Tip, sheared, tangents};
 use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use durer_math::eft::exponent;
@@ -323,10 +323,11 @@ impl QuadricFaces for FrustumShape {
     }
 
     /// The tip of a full cone points away from the disc.
-    fn tip(&self, face: usize) -> Option<Vec3> {
+    fn tip(&self, face: usize) -> Option<Tip> {
         let (k, _) = self.axis.direction();
         let is_pointed = self.radii.contains(&0.0);
-        (face as u32 == WALL && is_pointed).then_some(if self.radii[0] < self.radii[1] { -k } else { k })
+        let normal = if self.radii[0] < self.radii[1] { -k } else { k };
+        (face as u32 == WALL && is_pointed).then_some(Tip { normal, is_double: false })
     }
 }
 

@@ -11,8 +11,7 @@
 //! supported.
 
 use crate::faces::boolean_faces::QuadricFaces;
-use crate::faces::chart::sphere_chart;
-use crate::faces::chart::{Chart, Frame, sheared, tangents};
+use crate::faces::chart::{Chart, Frame, Tip, sheared, sphere_chart, tangents};
 use crate::faces::form::Form;
 use crate::quadric::solid::QuadricSolid;
 use durer_math::eft::{exponent, scale2};
@@ -180,7 +179,7 @@ impl QuadricFaces for SectorShape {
         }
     }
 
-    fn tip(&self, face: usize) -> Option<Vec3> {
-        (face == 1 && self.cosine > 0.0).then(|| -self.direction())
+    fn tip(&self, face: usize) -> Option<Tip> {
+        (face == 1 && self.cosine > 0.0).then(|| Tip { normal: -self.direction(), is_double: false })
     }
 }

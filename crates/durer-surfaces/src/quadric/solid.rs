@@ -1,14 +1,14 @@
 //! A [`QuadricFaces`] as a [`Surface`].
 
 use crate::faces::boolean_faces::{QuadricFaces, View, rounded};
-use crate::faces::chart::Frame;
+use crate::faces::chart::{Frame, Tip, tangents};
 use crate::faces::form::Rounded;
 use crate::packet::FilterSource;
 use crate::{
     Accelerate, LocalPoint, LocalRay, Need, PartId, Root, Side, Sink, Solidity, Surface, SurfacePoint,
 };
 use durer_math::eft::{scale2, two_sum};
-use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3};
+use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ring, U, Vec3, elementary};
 
 /// Covers results below the normal range, in units of the shape's size. Far more than needed, so
 /// that it and its square are normal numbers: on many CPUs an operation with a subnormal operand
@@ -142,10 +142,11 @@ impl View<'_> {
             back(off.distance) + f64::MIN_POSITIVE,
             ng.to_normal(),
         );
-        (point.bend, point.slack) = match off.tip {
-            true => (f64::INFINITY, back(TIP_SLACK)),
+        (point.bend, point.slack) = match off.slack > 0.0 {
+            true => (f64::INFINITY, back(off.slack)),
             false => (scale2(form.bend / gradient, -scale), 0.0),
         };
+        point.aside = off.aside.map(back);
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             let chart = self.shape.chart(face, y1, ng);
             point.uv = chart.uv;
@@ -199,24 +200,46 @@ impl View<'_> {
             let square = gradient * gradient - 4.0 * h * eta;
             if square > 0.0 {
                 let distance = 2.0 * eta / (gradient + square.sqrt()) * (1.0 + 64.0 * U);
-                return Off { distance, normal, tip: false };
+                return Off { distance, normal, slack: 0.0, aside: Vec3::ZERO };
             }
             if gradient > 0.0 && gradient.is_finite() {
                 let distance = (4.0 * eta / gradient).max((4.0 * eta / h).sqrt());
-                return Off { distance, normal, tip: false };
+                return Off { distance, normal, slack: 0.0, aside: Vec3::ZERO };
             }
         }
         // A tip: f changes with the square of the distance a along the axis n, and for any
         // displacement e with |e| <= ε
         // |f(p + a n + e)| >= a² |n·Qn| - a (|G| + 2 ε |Qn|) - (η + ε |G| + ε² h / 2).
-        let n = tip.unwrap_or(Vec3::Z);
-        let qn = form.times(n);
-        let growth = n.dot(qn).abs().max(f64::MIN_POSITIVE);
-        let e = tau + lost.length() + TIP_SLACK;
-        let b = gradient + 2.0 * e * qn.length();
+        let Tip { normal: n, is_double } = tip.unwrap_or(Tip { normal: Vec3::Z, is_double: false });
+        // As much again for a placement, and the rounding of starts aside. The point is about `err`
+        // away from the tip, so a slack of that size costs little.
+        let slack = err + tau + lost.length() + TIP_SLACK;
+        let e = 3.0 * slack;
         let c = f.v.abs() + 2.0 * f.e + away + e * gradient + 0.5 * e * e * h;
-        let distance = (b + (b * b + 4.0 * growth * c).sqrt()) / (2.0 * growth) * (1.0 + 32.0 * U);
-        Off { distance: distance.min(f64::MAX), normal: (n, gradient.max(TIP_SLACK * h)), tip: true }
+        let clear = |n: Vec3| {
+            let qn = form.times(n);
+            let growth = n.dot(qn).abs().max(f64::MIN_POSITIVE);
+            let b = gradient + 2.0 * e * qn.length();
+            let distance = (b + (b * b + 4.0 * growth * c).sqrt()) / (2.0 * growth) * (1.0 + 32.0 * U);
+            distance.min(f64::MAX)
+        };
+        let (distance, gradient) = (clear(n), gradient.max(TIP_SLACK * h));
+        let across = if is_double { across(form, n) } else { None };
+        let Some(across) = across else {
+            return Off { distance, normal: (n, gradient), slack, aside: Vec3::ZERO };
+        };
+        // Both halves: one start is on the axis and the other across it, each as far from the tip
+        // as the longer of both ways.
+        let way = distance.max(clear(across));
+        let (inside, outside) = if n.dot(form.times(n)) < 0.0 { (n, across) } else { (across, n) };
+        let apart = outside - inside;
+        let length = apart.length();
+        Off {
+            distance: 0.5 * way * length * (1.0 + 8.0 * U),
+            normal: (apart * (1.0 / length), gradient),
+            slack,
+            aside: (inside + outside) * (0.5 * way),
+        }
     }
 
     /// An upper bound of `|f|` at a point in the world's coordinates.
@@ -258,7 +281,23 @@ fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     (y, f, half)
 }
 
-/// How far, in units, a point may be moved near a tip.
+/// The direction across `n` along which the quadratic part of the form has the other sign, the
+/// farther from zero the better; `None` if there is none.
+fn across(form: &Rounded, n: Vec3) -> Option<Vec3> {
+    let (u, v) = tangents(n);
+    let (qu, qv) = (form.times(u), form.times(v));
+    let (a, b, c) = (u.dot(qu), u.dot(qv), v.dot(qv));
+    // The eigenvalues of the form across `n`, and their eigenvectors.
+    let (middle, half) = (0.5 * (a + c), 0.5 * elementary::hypot(a - c, 2.0 * b));
+    let sign = -n.dot(form.times(n)).signum();
+    let value = middle + sign * half;
+    let (one, other) = (u * b + v * (value - a), u * (value - c) + v * b);
+    let way = if one.length() > other.length() { one } else { other };
+    let way = way.normalized().unwrap_or(u);
+    (value * sign > 0.0).then_some(way)
+}
+
+/// How far, in units, a point may at least be moved near a tip.
 const TIP_SLACK: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// The result of [`View::off`].
@@ -266,6 +305,8 @@ struct Off {
     distance: f64,
     /// The unit normal and the length of the gradient.
     normal: (Vec3, f64),
-    /// Whether the gradient vanishes, or almost vanishes.
-    tip: bool,
+    /// Where the gradient vanishes, or almost vanishes, see [`SurfacePoint::slack`]; else zero.
+    slack: f64,
+    /// See [`SurfacePoint::aside`].
+    aside: Vec3,
 }

@@ -221,9 +221,57 @@ fn the_normal_of_a_cone_is_its_axis_only_where_the_point_may_be_the_tip() {
             "{k}: {found:?}"
         );
     }
-    // At the tip the axis is the only normal.
+    // At the tip of one half the axis is the only normal.
     let through = durer_math::Ray::new(Point3::new(-4.0, 0.0, 0.0), Vec3::X);
-    assert_eq!(normals(&cone, all_roots(&cone, &through), &through), [1.0]);
+    let half = cone.between(0.0, 1.0).unwrap();
+    assert_eq!(normals(&half, all_roots(&half, &through), &through), [-1.0]);
+}
+
+/// Rays that leave a double tip start on the requested side, wherever the surface is placed.
+#[test]
+fn rays_leave_a_double_tip_on_their_side() {
+    let cone = |a: f64, b: f64| DynSurface::new(Cone::new(a, b, 1.0).unwrap());
+    let general = |k: [f64; 10]| DynSurface::new(Quadric::new(k).unwrap());
+    let surfaces = [
+        cone(0.5, 0.75),
+        cone(1.0, 64.0),
+        DynSurface::new(Cone::new(1.0, 1.0, 2.0).unwrap().between(-2.0, 1.0).unwrap()),
+        // x² + 2 y² - 3 z² + x y, and the planes of x y = 0.
+        general([1.0, 2.0, -3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        general([-1.0, -2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        general([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    ];
+    let far = |by: Vec3| durer_math::Affine::translation(by).unwrap();
+    let mut tips = 0;
+    for (seed, surface) in surfaces.iter().enumerate() {
+        for i in 0..200 {
+            let mut dice = laws::dice(700 + seed as u64, i);
+            // There and back again, so that rounding is large beside the tip.
+            let there = dice.vector() * dice.pick(&[0.0, 1.0, 1e3, 1e6]);
+            let maps = match i % 3 {
+                0 => [far(there), far(-there), dice.map()],
+                1 => [dice.map(), far(there), dice.map()],
+                _ => [dice.map(), dice.map(), far(there)],
+            };
+            let placed = maps.iter().fold(surface.clone(), |s, map| DynSurface::new(Placed::new(s, *map)));
+            let tip = maps.iter().fold(Point3::ORIGIN, |p, map| map.point(p));
+            let origin = tip - dice.vector() * 4.0;
+            let ray = durer_math::Ray::new(origin, tip - origin);
+            for root in all_roots(&placed, &ray) {
+                let point = placed.resolve(&LocalRay::new(&ray), &root, Need::ALL);
+                tips += u32::from(point.aside != Vec3::ZERO);
+                assert!((0..3).all(|k| (point.p[k] - ray.at(root.t)[k]).abs() <= 2.0 * point.dp[k]));
+                for (side, wanted) in
+                    [(durer_math::RaySide::Front, Side::Out), (durer_math::RaySide::Back, Side::In)]
+                {
+                    let start = point.spawn_from(side, dice.vector());
+                    let found = placed.side(&LocalPoint::new(start.origin));
+                    assert_eq!(found, wanted, "{seed} {i}: {side:?} {point:?}");
+                }
+            }
+        }
+    }
+    assert!(tips > 600, "{tips} tips");
 }
 
 /// The polynomial `x²/a² + sign y²/b² - z/c` (without `sign`: `x²/a² - y/b`) times its

@@ -52,6 +52,8 @@ pub struct LocalRay<'a> {
     pub source_face: u32,
     /// Whether brackets may be as wide as [`PREVIEW_WIDTH`]: enough to see by.
     pub rough: bool,
+    /// Whether `o_err` has been widened to find a tip: see [`LocalRay::resolve_through`].
+    pub(crate) is_widened: bool,
     /// `1 / d.d`, for the closest approach.
     inverse_d2: f64,
     clock: ParameterMap,
@@ -234,6 +236,7 @@ impl LocalRay<'static> {
             source: None,
             source_face: ray.source().map_or(0, |s| s.face),
             rough: false,
+            is_widened: false,
             inverse_d2: 1.0 / d.length_squared(),
             clock: ParameterMap { terms: [0.0; 4], len: 0, k },
             lineage: Lineage::Given { k, direction: ray.direction, d_err: given },
@@ -472,6 +475,7 @@ impl<'a> LocalRay<'a> {
             source: self.source,
             source_face: self.source_face,
             rough: self.rough,
+            is_widened: self.is_widened,
             inverse_d2: 1.0 / d.length_squared(),
             clock: self.clock.then(step, k),
             lineage: Lineage::Placed { parent: self, affine, step, k },

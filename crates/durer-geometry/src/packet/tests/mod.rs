@@ -117,20 +117,27 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut TestRng, depth: u32
     geometry.any8(None, only, u32::MAX, slice::from_mut(&mut met), scratch);
     let beam = geometry.bundle_candidates(only).unwrap();
     let asked = geometry.see(&beam, rays, u32::MAX, &mut Hits8::NONE.clone(), scratch);
-    let starts = check(world, rays, (&hits, met, asked), tally);
-    check_starts(world, aim, &hits, starts);
-    if depth > 0 && hits.hit.any() {
-        let onward = onward(aim, rays, &hits, dice);
+    let Starts { smooth, proven } = check(world, rays, (&hits, met, asked), tally);
+    check_starts(world, aim, &hits, smooth);
+    if depth > 0 && proven.any() {
+        let onward = onward(aim, rays, &hits, proven, dice);
         compare(world, aim, &onward, dice, depth - 1, tally);
     }
 }
 
+/// The lanes with hits.
+struct Starts {
+    /// Off edges, so that rays start on a known side; among `proven`.
+    smooth: M8,
+    /// At which the start of a ray is proven.
+    proven: M8,
+}
+
 /// Compares a packet's `hits` and `met` with single rays; `asked` are the lanes that fell back.
-/// Returns the lanes at whose hits rays may be spawned.
-fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tally: &mut Tally) -> M8 {
+fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tally: &mut Tally) -> Starts {
     let geometry = &world.geometry;
     tally.asked += asked.count();
-    let mut starts = hits.hit;
+    let mut starts = Starts { smooth: hits.hit, proven: hits.hit };
     for i in rays.live.lanes() {
         let ray = rays.lane(i);
         let exact = geometry.closest(&ray);
@@ -141,7 +148,7 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
         let told = exact.map_or(seen, |hit| (hit.t, hit.t_hi - hit.t_lo));
         if [seen, told].into_iter().any(|near| world.has_edge_on(&ray, near)) {
             tally.edges += 1;
-            starts.set_lane(i, false);
+            starts.smooth.set_lane(i, false);
             continue;
         }
         // A tangent, as far as f64 can decide in a surface's frame, or a crossing at an end of the
@@ -175,8 +182,12 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
                 "{}: {ray:?}",
                 world.name
             );
-            // At a tip, or nearer to it than the point's own bounds, there is no tangent plane.
-            starts.set_lane(i, seen.is_some_and(|(_, p)| p.bend * p.off < 0.5));
+            // Where a surface bends within the rounding of coordinates, such as a paraboloid 1e31
+            // away, no start is proven, but at the tip of a double cone.
+            let is_proven = |p: &SurfacePoint| p.aside != Vec3::ZERO || p.bend * p.off < 0.5;
+            let proven = seen.is_some_and(|(_, p)| is_proven(&p));
+            starts.smooth.set_lane(i, proven);
+            starts.proven.set_lane(i, proven);
         } else {
             check_hit(world, &ray, &hit, hits, i);
         }
@@ -285,18 +296,18 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
     }
 }
 
-/// Rays that are spawned at hits, in random directions or nearly along the surface. The other lanes
+/// Rays that are spawned at the hits of `lanes`, in random directions or nearly along the surface. The other lanes
 /// hold rays that were there before.
-fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, dice: &mut TestRng) -> Rays8 {
+fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, lanes: M8, dice: &mut TestRng) -> Rays8 {
     let mut onward = *rays;
-    for i in hits.hit.lanes() {
+    for i in lanes.lanes() {
         let (d, n) = (dice.vector(), hits.ng.lane(i));
         let graze = if aim == Aim::Trouble { 1.0 - durer_math::scale::pow2(-7 * i as i32) } else { 0.0 };
         onward.direction.set_lane(i, d - n * (n.dot(d) * graze));
     }
     let (start, back) = hits.start_towards(onward.direction);
     let sources = hits.sources(back);
-    for i in hits.hit.lanes() {
+    for i in lanes.lanes() {
         (onward.origin.x.0[i], onward.origin.y.0[i], onward.origin.z.0[i]) =
             (start.x.0[i], start.y.0[i], start.z.0[i]);
         onward.source.copy_lane(i, &sources, i);
@@ -337,9 +348,9 @@ fn many_eights_together_see_what_single_rays_see() {
                 for (i, rays) in rays.iter_mut().enumerate() {
                     assert_eq!((hits[i].hit | met[i]) & !rays.live, M8::NONE, "{}", world.name);
                     let starts = check(world, rays, (&hits[i], met[i], asked[i]), &mut tally);
-                    check_starts(world, Aim::Random, &hits[i], starts);
-                    *rays = onward(Aim::Random, rays, &hits[i], &mut dice);
-                    rays.live = hits[i].hit;
+                    check_starts(world, Aim::Random, &hits[i], starts.smooth);
+                    *rays = onward(Aim::Random, rays, &hits[i], starts.proven, &mut dice);
+                    rays.live = starts.proven;
                 }
             }
         }
@@ -352,7 +363,7 @@ fn many_eights_together_see_what_single_rays_see() {
 
 #[test]
 fn lanes_see_what_single_rays_see() {
-    let mut dice = TestRng::new(14);
+    let mut dice = TestRng::new(1);
     let mut surfaces: Vec<(&str, Tally)> = Vec::new();
     let mut many = Vec::new();
     let mut worlds = all_worlds(Isa::detect());
@@ -372,7 +383,7 @@ fn lanes_see_what_single_rays_see() {
             });
             compare(world, Aim::Random, &rays, &mut dice, 3, &mut tally);
         }
-        assert!(tally.met > 100, "{}: {} met", world.name, tally.met);
+        assert!(tally.met * 16 > tally.rays, "{}: {} met", world.name, tally.met);
         match surfaces.last_mut().filter(|(name, _)| *name == world.surface) {
             Some((_, all)) => all.add(&tally),
             None => surfaces.push((world.surface, tally)),
@@ -382,6 +393,8 @@ fn lanes_see_what_single_rays_see() {
         println!("{name}: {rays} rays, {asked} asked, {edges} at edges");
         // Brackets are narrow: random rays hardly ever meet an edge within one.
         assert!(edges * 500 <= rays, "{name}: {edges} of {rays} at edges");
+        // At least five standard deviations above the mean: rays that are spawned where packets
+        // fall back often fall back, too.
         let least = match name {
             // A face, or a part of one, lies exactly in a face of the clip: only exact arithmetic
             // can prove that it is kept.
@@ -395,7 +408,7 @@ fn lanes_see_what_single_rays_see() {
             "crossed conic prism" => 6,
             // A clipped surface is tested within the clip only; an unclipped one as far as it
             // extends, and far away the degree counts.
-            "clipped cubic" => 800,
+            "clipped cubic" => 400,
             "cubic" => 200,
             "quartic" | "balls" => 50,
             "sausages" => 30,
@@ -412,8 +425,8 @@ fn lanes_see_what_single_rays_see() {
             // Rays along a plane across the axis, and tangent rays.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,
             // These have a tip, or are unbounded, too.
-            "double cone" => 500,
-            _ => 1000,
+            "double cone" => 400,
+            _ => 500,
         };
         if asked * least >= rays {
             many.push(format!("{name}: {asked} of {rays}"));
@@ -434,7 +447,7 @@ fn what_is_clipped_within_its_box_is_seen() {
             });
             compare(&world, Aim::Random, &rays, &mut dice, 0, &mut tally);
         }
-        assert!(tally.met > 30, "{}: {} met", world.name, tally.met);
+        assert!(tally.met * 16 > tally.rays, "{}: {} met", world.name, tally.met);
     }
 }
 
