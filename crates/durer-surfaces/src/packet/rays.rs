@@ -33,6 +33,13 @@ pub struct From8 {
 }
 
 impl From8 {
+    /// The same rays, behind the face by the surface's own normals, which those of hits are opposite
+    /// to if the surface is `turned`.
+    #[inline(always)]
+    pub(crate) fn by_own_normals(&self, turned: bool) -> Self {
+        Self { back: if turned { !self.back } else { self.back }, ..*self }
+    }
+
     /// The side of a solid on which the rays start: -1 inside, 1 outside, 0 for rays that start
     /// elsewhere. The solid is negative inside, or the complement of that set if `turned`.
     #[inline(always)]

@@ -3,7 +3,7 @@
 
 use super::worlds::{World, all_worlds};
 use super::{Aim, Tally, TestRng, compare, eight, point};
-use durer_math::{Isa, Point3, Ray};
+use durer_math::{Isa, Point3, Ray, RaySide, Source};
 
 /// The range of a ray that is aimed at `t = 1`.
 fn range(dice: &mut TestRng) -> f64 {
@@ -52,6 +52,20 @@ fn rays_on_a_grid() {
             compare(&world, Aim::Trouble, &rays, &mut dice, 1, &mut tally);
         }
     }
+}
+
+/// A ray that leaves a wall almost along it and meets it again 4e-7 from there. The wall is turned, so
+/// its own normals are opposite to those of its hits.
+#[test]
+fn a_turned_wall_is_met_again_next_to_the_start() {
+    let worlds = all_worlds(Isa::detect());
+    let world = worlds.iter().find(|w| w.name == "open curved prism, inside out").unwrap();
+    let origin = point(-0.999999999987271, 0.9999999999874666, 0.500000000015792);
+    let way = durer_math::Vec3::new(0.2925213662750884, -0.29252136621553915, 0.9992350737027144);
+    let source = Source { arena: 0, index: 0, part: 2, face: 0, instance: 0, side: RaySide::Front };
+    let rays = eight(|_| Ray::new(origin, way).spawned_from(Some(source)));
+    assert!(world.geometry.closest(&rays.lane(0)).is_some_and(|hit| hit.t < 1e-6));
+    compare(world, Aim::Trouble, &rays, &mut TestRng::new(1), 0, &mut Tally::default());
 }
 
 /// The object, primitive and face that a ray hits first, if edges leave no doubt.

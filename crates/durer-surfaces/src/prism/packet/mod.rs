@@ -211,9 +211,10 @@ impl PacketKernel for Swept {
         nearest: &mut Nearest,
         scratch: &mut KernelScratch,
     ) {
-        let &KernelRays { own, rays, start, .. } = seen;
+        let &KernelRays { own, rays, leaving, start, .. } = seen;
         let memory: &mut PrismScratch = scratch.of();
         let mut to = query.first(nearest);
+        let from = leaving.map(|(from, turned)| from.by_own_normals(turned));
         match self {
             Self::Wall { curve, sweep, left } => {
                 rays.isa.run_in_lanes(
@@ -222,7 +223,7 @@ impl PacketKernel for Swept {
                 );
                 if enclose(rays, sweep, &to, memory, true) && cubic_of(rays, curve, &mut to, memory) {
                     let named = Named { face: 0.0, left: *left };
-                    wall((rays, query.from), (curve, sweep, named), &mut to, memory);
+                    wall((rays, from.as_ref()), (curve, sweep, named), &mut to, memory);
                 }
             }
             Self::Cap { curves, sweep, top } => {
@@ -230,7 +231,7 @@ impl PacketKernel for Swept {
                     #[inline(always)]
                     || see(own, rays, start, memory),
                 );
-                if reach((rays, query.from), (sweep, *top), &to, memory, true) {
+                if reach((rays, from.as_ref()), (sweep, *top), &to, memory, true) {
                     count(rays.isa, curves, memory);
                     conclude(rays, 0.0, &mut to, memory);
                 }

@@ -118,7 +118,7 @@ pub(super) fn crossings(
 fn leaves(leaving: Option<(&From8, bool)>, face: usize) -> Option<From8> {
     let (from, turned) = leaving?;
     let lanes = from.lanes & from.face.equals(F8::splat(face as f64));
-    lanes.any().then_some(From8 { lanes, face: from.face, back: flipped(from.back, M8::splat(turned)) })
+    lanes.any().then_some(From8 { lanes, ..from.by_own_normals(turned) })
 }
 
 /// For the `asked` rays, as bit masks: points at `t`, known within `e`, that are certainly inside
