@@ -200,7 +200,7 @@ impl<'w> Lamps<'w> {
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
             }
             if let Some(through) = &lamp.through {
-                lamps.shadows.project(&through.geometry, false);
+                lamps.shadows.project(&through.geometry, lamp.shadowless);
             }
             lamps.shadows.cast((world, isa), None, media, stop, counts);
         };

@@ -128,7 +128,12 @@ impl RenderLight {
                 .filter(|fade| fade.power > 0.0 && fade.distance.abs() > NO_DISTANCE)
                 .map(|fade| (fade.distance, Power::new(fade.power))),
             end: None,
-            area: light.area.as_ref().filter(|_| !light.shadowless).and_then(Area::new),
+            // Without shadows the points of an area differ only in what they shine through.
+            area: light
+                .area
+                .as_ref()
+                .filter(|_| !light.shadowless || light.through.is_some())
+                .and_then(Area::new),
             illuminates: light.area.as_ref().is_some_and(|area| area.illuminates),
             through,
             group: light.group,
