@@ -6,7 +6,7 @@ use crate::diagnostics::{Place, Result};
 use crate::keywords::Keyword;
 use crate::scene_builder::placement;
 use crate::texture::{Normal, NormalKind, Pattern, PatternKind};
-use crate::texture_builder::{blend_of_patterns, pattern_of, value_of, warps_of};
+use crate::texture_builder::{pattern_of, value_of, warps_of};
 
 /// Converts a normal; `None` if it perturbs nothing.
 pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
@@ -23,7 +23,7 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
             map,
             at,
             |part| Ok(normal(part, at)?.unwrap_or_else(level)),
-            |_, _, _| Err(blend_of_patterns(at)),
+            Normal::blended,
         )?)),
         // A slope map has no effect on them (a fact of the language).
         (None, Some(push)) => {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use durer_scene as scene;
 
 use crate::colour::Colour;
-use crate::diagnostics::{Error, ErrorKind, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::normal_builder::normal;
 use crate::pattern_function::changed_number;
@@ -24,13 +24,8 @@ pub(crate) fn texture(own: &Texture, at: Place) -> Result<scene::Texture> {
             })
         }
         Texture::Patterned { pattern, map } => {
-            let made = pattern_of(
-                pattern,
-                map,
-                at,
-                |part| texture(part, at).map(Arc::new),
-                |_, _, _| Err(blend_of_patterns(at)),
-            )?;
+            let made =
+                pattern_of(pattern, map, at, |part| texture(part, at).map(Arc::new), Texture::blended)?;
             Ok(scene::Texture {
                 body: scene::TextureBody::Pattern(Box::new(made)),
                 placement: placement(&pattern.modifiers.place, at)?,
@@ -71,7 +66,7 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
             &map,
             at,
             |color| Ok(scene::Colour::from_terms(*color)),
-            |a, b, k| Ok(blended(*a, *b, k)),
+            |a, b, k| blended(*a, *b, k),
         )?),
         Paint::Pigments(map) => scene::Pigment::pigments(pattern_of(
             &pattern,
@@ -79,8 +74,8 @@ pub(crate) fn pigment(own: &Pigment, at: Place) -> Result<scene::Pigment> {
             at,
             |part| pigment(part, at),
             |a, b, k| match (&a.body, &b.body) {
-                (Body::Solid(a), Body::Solid(b)) => Ok(Pigment::solid(blended(*a, *b, k))),
-                _ => Err(blend_of_patterns(at)),
+                (Body::Solid(a), Body::Solid(b)) => Pigment::solid(blended(*a, *b, k)),
+                _ => Pigment::blended(a, b, k),
             },
         )?),
     };
@@ -94,18 +89,13 @@ fn blended(from: Colour, to: Colour, k: f64) -> Colour {
     core::array::from_fn(|i| from[i] + (to[i] - from[i]) * k)
 }
 
-pub(crate) fn blend_of_patterns(at: Place) -> Box<Error> {
-    let text = "not supported yet: a frequency or a wave that blends the patterns or textures of a list";
-    Error::at(at, ErrorKind::Unsupported, text)
-}
-
 /// A pattern of scene data: `part` converts an entry, `blend` mixes two.
 pub(crate) fn pattern_of<T: Clone, U>(
     pattern: &Pattern,
     map: &Map<T>,
     at: Place,
     part: impl FnMut(&T) -> Result<U>,
-    blend: impl Fn(&T, &T, f64) -> Result<T>,
+    blend: impl Fn(&T, &T, f64) -> T,
 ) -> Result<scene::Pattern<U>> {
     let plain = plain_pattern(pattern, map, at, part, blend)?;
     let warps = warps_of(pattern, at)?;
@@ -138,7 +128,7 @@ fn plain_pattern<T: Clone, U>(
     map: &Map<T>,
     at: Place,
     mut part: impl FnMut(&T) -> Result<U>,
-    blend: impl Fn(&T, &T, f64) -> Result<T>,
+    blend: impl Fn(&T, &T, f64) -> T,
 ) -> Result<scene::Pattern<U>> {
     let cells = match cells_of(&pattern.kind) {
         Some(cells) => cells,
@@ -156,7 +146,7 @@ fn plain_pattern<T: Clone, U>(
         }
     };
     let entry = |number: usize| {
-        let plain = |i: usize| Ok(map.entries[i].1.clone());
+        let plain = |i: usize| map.entries[i].1.clone();
         if pattern.is_plain_list() {
             return plain(number);
         }
@@ -168,7 +158,7 @@ fn plain_pattern<T: Clone, U>(
         let k = shown - below as f64;
         if k == 0.0 { plain(below) } else { blend(&map.entries[below].1, &map.entries[below + 1].1, k) }
     };
-    let entries = (0..map.entries.len()).map(|number| part(&entry(number)?)).collect::<Result<_>>()?;
+    let entries = (0..map.entries.len()).map(|number| part(&entry(number))).collect::<Result<_>>()?;
     Ok(scene::Pattern::Cells { cells, entries })
 }
 

@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::{PatternKind, Texture};
+use super::pattern::PatternModifiers;
+use super::{Normal, NormalKind, Pattern, PatternKind, Pigment, Texture};
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
@@ -36,6 +37,38 @@ impl<T> Map<T> {
     pub(crate) fn list(items: Vec<T>, depth: u32) -> Self {
         let entries = items.into_iter().enumerate().map(|(i, item)| (i as f64, item)).collect();
         Self::new(entries, depth)
+    }
+
+    /// The entries of a mean of two, with the weight `k` for the second.
+    fn mean(a: &T, b: &T, k: f64) -> Rc<Self>
+    where
+        T: Clone,
+    {
+        // What has been read is not too deep; this map stands in none that the text gives.
+        Rc::new(Self::new(vec![(1.0 - k, a.clone()), (k, b.clone())], 1))
+    }
+}
+
+/// Blends of two entries of a list, with the weight `k` for the second: a mean.
+impl Pigment {
+    pub(crate) fn blended(a: &Self, b: &Self, k: f64) -> Self {
+        Self::of_pigments(PatternKind::Average, Map::mean(a, b, k))
+    }
+}
+
+impl Texture {
+    /// See [`Pigment::blended`].
+    pub(crate) fn blended(a: &Self, b: &Self, k: f64) -> Self {
+        let pattern = Pattern { kind: PatternKind::Average, modifiers: PatternModifiers::default() };
+        Self::Patterned { pattern, map: Map::mean(a, b, k) }
+    }
+}
+
+impl Normal {
+    /// See [`Pigment::blended`].
+    pub(crate) fn blended(a: &Self, b: &Self, k: f64) -> Self {
+        let kind = Some(NormalKind::Pattern(PatternKind::Average));
+        Self { kind, normals: Some(Map::mean(a, b, k)), ..Self::default() }
     }
 }
 
@@ -116,7 +149,7 @@ impl Parser<'_> {
     }
 
     /// Reads what follows `pigment_map`.
-    pub(crate) fn pigment_map_block(&mut self, is_mean: bool) -> Result<Rc<Map<super::Pigment>>> {
+    pub(crate) fn pigment_map_block(&mut self, is_mean: bool) -> Result<Rc<Map<Pigment>>> {
         self.expect(Mark::BraceOpen)?;
         if let Item::Value(Value::PigmentMap(known)) = self.peek()? {
             let known = known.clone();

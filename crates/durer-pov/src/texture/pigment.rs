@@ -58,6 +58,11 @@ impl Pigment {
         Self { body: Body::Solid(colour), ..Self::default() }
     }
 
+    /// Makes a pigment of pigments that a pattern selects or mixes.
+    pub(crate) fn of_pigments(kind: PatternKind, map: Rc<Map<Self>>) -> Self {
+        Self { body: Body::Patterned(kind), paint: Some(Paint::Pigments(map)), ..Self::default() }
+    }
+
     pub(crate) fn transform(&mut self, by: &Matrix) {
         self.modifiers.transform(by);
     }
