@@ -33,8 +33,8 @@ pub struct From8 {
 }
 
 impl From8 {
-    /// The same rays, behind the face by the surface's own normals, which those of hits are opposite
-    /// to if the surface is `turned`.
+    /// The same rays by the surface's own normals. Those of hits are opposite if the surface is
+    /// `turned`.
     #[inline(always)]
     pub(crate) fn by_own_normals(&self, turned: bool) -> Self {
         Self { back: if turned { !self.back } else { self.back }, ..*self }
