@@ -11,8 +11,8 @@ pub struct SurfacePoint {
     pub dp: Vec3,
     /// A distance along the normal that provably leaves the surface: `p + aside + off ng` is strictly
     /// in front, `p + aside - off ng` strictly behind, also after each coordinate is rounded away.
-    /// Usually far smaller than `dp`. Where the surface bends within the rounding of coordinates
-    /// (`bend off >= 1/2`), as a thin cylinder far away, neither is proven.
+    /// Usually far smaller than `dp`. Where the surface bends within the rounding of coordinates (a
+    /// finite `bend` with `bend off >= 1/2`), as a thin cylinder far away, neither is proven.
     pub off: f64,
     /// The geometric normal: unit length, outward for solids, as stored for open surfaces.
     pub ng: Normal3,

@@ -49,8 +49,8 @@ impl<T> Map<T> {
     }
 }
 
-/// Blends of two entries of a list, with the weight `k` for the second: a mean.
 impl Pigment {
+    /// A blend of two entries of a list, with the weight `k` for the second: their mean.
     pub(crate) fn blended(a: &Self, b: &Self, k: f64) -> Self {
         Self::of_pigments(PatternKind::Average, Map::mean(a, b, k))
     }

@@ -13,8 +13,8 @@
 //!
 //! The polynomial of the Omnimax lens is that of N. Greene and P. S. Heckbert, "Creating raster
 //! Omnimax images from multiple perspective views using the elliptical weighted average filter",
-//! *IEEE Computer Graphics and Applications* 6 (1986) 21-27. Its picture ends 45 degrees below the
-//! direction of view, at `y = -0.55829`. With `k = |up|/|right|`, the picture covers `y` from
+//! *IEEE Computer Graphics and Applications* 6 (1986) 21-27, with the coefficient of `r^3` that
+//! POV-Ray's pictures show. The lens's picture ends 45 degrees below the direction of view, at `y = -0.55829`. With `k = |up|/|right|`, the picture covers `y` from
 //! `1 - 2 k` up to 1 if `k` is below 1, and from `-k` to `k` otherwise; if that ends within the
 //! lens's picture, `y` ends with it and `x` is widened. This was found from POV-Ray's pictures.
 

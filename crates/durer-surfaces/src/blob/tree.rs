@@ -124,6 +124,7 @@ impl Tree {
                 continue;
             }
             match self.inner(i) {
+                // A loop: `for_each` would call `take` compiled for the least processor.
                 Inner::Leaf(from, to) => {
                     for i in from..to {
                         take(i);

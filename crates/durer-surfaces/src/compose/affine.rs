@@ -159,9 +159,9 @@ impl LocalRay<'_> {
     /// The point that `resolve` finds on the ray in the frame of a surface, as `map` places that
     /// surface, with its bounds.
     ///
-    /// The frame may know a point near a tip more precisely than the world's coordinates can say.
-    /// The tip is then where the ray leaves the surface, not the tangent plane: the point is
-    /// resolved once more, on a ray that is known no better than that.
+    /// Near a tip the frame may tell a point from the tip where the world's coordinates cannot. Rays
+    /// then leave from the tip, not from the tangent plane: the point is resolved once more, on a
+    /// ray that is known no better than those coordinates.
     pub fn resolve_through(
         &self,
         map: &Affine,
@@ -169,7 +169,7 @@ impl LocalRay<'_> {
     ) -> SurfacePoint {
         let mut local = self.through(map);
         let (placed, room) = place(map, &resolve(&local));
-        // Once for all the maps around.
+        // A map within others does not widen a ray that one of them has widened.
         if room > 0.0 && !local.is_widened {
             local.is_widened = true;
             local.o_err += Vec3::new(room, room, room);
@@ -231,7 +231,7 @@ fn place_here(map: &Affine, local: &SurfacePoint) -> (SurfacePoint, f64) {
     let (off, room) = if sure > 0.0 && square > 0.0 {
         (2.0 * eta / (sure + square.sqrt()), 0.0)
     } else {
-        // The normal may turn by about one radian within 1 / bend.
+        // The normal may turn by about one radian within 1 / bend, so a tip may be that near.
         let room = (reach * stray).max(1.0 / local.bend);
         ((4.0 * eta / bend.max(f64::MIN_POSITIVE)).sqrt().max(4.0 * eta / length), room)
     };

@@ -11,7 +11,9 @@
 //! ```text
 //!   (w + M⁻¹ p)·M (w + M⁻¹ p) <= ρ(y) = p·M⁻¹ p - r,   |w_i + (M⁻¹ p)_i| <= √(ρ (M⁻¹)_ii)
 //!
-//!   ρ(y) = α y² + 2 β y + γ,   α = q_wy·M⁻¹ q_wy - q_yy,   β = b_w·M⁻¹ q_wy - b_y,   γ = b_w·M⁻¹ b_w - c
+//!   ρ(y) = α y² + β y + γ
+//!
+//!   α = q_wy·M⁻¹ q_wy - q_yy,   β = 2 (b_w·M⁻¹ q_wy - b_y),   γ = b_w·M⁻¹ b_w - c
 //! ```
 //!
 //! If `α` is not negative, `ρ` is convex and its maximum is at an end. A paraboloid along the axis,
@@ -181,5 +183,44 @@ mod tests {
             }
         }
         assert!(bounded > 50 && held > 5000, "{bounded} {held}");
+    }
+
+    /// Across an axis of the quadric a box ends at the largest section, whatever the sign of the
+    /// coefficients; that of a paraboloid ends at its vertex, too.
+    #[test]
+    fn boxes_across_an_axis_are_tight() {
+        let inf = f64::INFINITY;
+        let paraboloid = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, -2.0, 0.0, -1.0, 1.0];
+        let hyperboloid = [1.0, 4.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0];
+        let cases = [
+            // (x - 1)² + y² = z
+            (
+                paraboloid,
+                [-inf, 2.0],
+                [
+                    [1.0 - 2.0_f64.sqrt(), 1.0 + 2.0_f64.sqrt()],
+                    [-(2.0_f64.sqrt()), 2.0_f64.sqrt()],
+                    [0.0, 2.0],
+                ],
+            ),
+            // x² + 4 y² = 1 + z²
+            (
+                hyperboloid,
+                [-1.0, 3.0],
+                [[-(10.0_f64.sqrt()), 10.0_f64.sqrt()], [-(2.5_f64.sqrt()), 2.5_f64.sqrt()], [-1.0, 3.0]],
+            ),
+        ];
+        for (coefficients, slab, wanted) in cases {
+            for k in [coefficients, coefficients.map(|x| -x)] {
+                let region = Aabb::new([-inf, -inf, slab[0]].into(), [inf, inf, slab[1]].into());
+                let found = QuadricExtent::of_both_sides(&k)
+                    .iter()
+                    .fold(region, |region, solid| solid.bounds_within(&region));
+                for (axis, [low, high]) in wanted.into_iter().enumerate() {
+                    let beyond = [low - found.min[axis], found.max[axis] - high];
+                    assert!(beyond.iter().all(|x| (-1e-15..1e-14).contains(x)), "{axis}: {found:?}");
+                }
+            }
+        }
     }
 }

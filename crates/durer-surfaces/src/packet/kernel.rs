@@ -103,9 +103,10 @@ pub(crate) trait PacketKernel: Debug + Send + Sync {
     }
 }
 
-/// A kernel that finds the first crossings and all crossings by the same steps: surfaces of
-/// revolution, blobs and polynomials. It is a [`PacketKernel`] by that.
-pub(crate) trait SolidKernel: Debug + Send + Sync {
+/// A kernel that finds the first crossings and all crossings by the same steps and passes them to
+/// any sink: that of surfaces of revolution, of blobs and of polynomials. So it is a
+/// [`PacketKernel`].
+pub(crate) trait SinkKernel: Debug + Send + Sync {
     /// Working memory.
     type Scratch: Any + Default + Send + Sync;
 
@@ -134,17 +135,17 @@ pub(crate) trait SolidKernel: Debug + Send + Sync {
     fn points(&self, own: &Own, at: &FacePoints) -> Skin;
 }
 
-impl<T: SolidKernel> PacketKernel for T {
+impl<T: SinkKernel> PacketKernel for T {
     fn face_of(&self, number: u32) -> u32 {
-        SolidKernel::face_of(self, number)
+        SinkKernel::face_of(self, number)
     }
 
     fn is_unbounded(&self) -> bool {
-        SolidKernel::is_unbounded(self)
+        SinkKernel::is_unbounded(self)
     }
 
     fn is_operand(&self) -> bool {
-        SolidKernel::is_operand(self)
+        SinkKernel::is_operand(self)
     }
 
     fn first(

@@ -281,8 +281,8 @@ fn project(form: &Rounded, mut y: Vec3) -> (Vec3, EFloat, Vec3) {
     (y, f, half)
 }
 
-/// The direction across `n` along which the quadratic part of the form has the other sign, the
-/// farther from zero the better; `None` if there is none.
+/// The direction across `n` along which the quadratic part of the form has the other sign than along
+/// `n`, and the largest value; `None` if there is none.
 fn across(form: &Rounded, n: Vec3) -> Option<Vec3> {
     let (u, v) = tangents(n);
     let (qu, qv) = (form.times(u), form.times(v));

@@ -125,12 +125,12 @@ fn compare(world: &World, aim: Aim, rays: &Rays8, dice: &mut TestRng, depth: u32
     }
 }
 
-/// The lanes with hits.
+/// The lanes with hits at which rays may start.
 struct Starts {
-    /// Off edges, so that rays start on a known side; among `proven`.
-    smooth: M8,
-    /// At which the start of a ray is proven.
+    /// Those where the start is proven to be on the requested side.
     proven: M8,
+    /// Those of them that are not at an edge, where a step off one face may cross another one.
+    smooth: M8,
 }
 
 /// Compares a packet's `hits` and `met` with single rays; `asked` are the lanes that fell back.
@@ -296,8 +296,8 @@ fn check_starts(world: &World, aim: Aim, hits: &Hits8, lanes: M8) {
     }
 }
 
-/// Rays that are spawned at the hits of `lanes`, in random directions or nearly along the surface. The other lanes
-/// hold rays that were there before.
+/// Rays that are spawned at the hits of `lanes`, in random directions or nearly along the surface.
+/// The other lanes hold rays that were there before.
 fn onward(aim: Aim, rays: &Rays8, hits: &Hits8, lanes: M8, dice: &mut TestRng) -> Rays8 {
     let mut onward = *rays;
     for i in lanes.lanes() {
@@ -393,8 +393,8 @@ fn lanes_see_what_single_rays_see() {
         println!("{name}: {rays} rays, {asked} asked, {edges} at edges");
         // Brackets are narrow: random rays hardly ever meet an edge within one.
         assert!(edges * 500 <= rays, "{name}: {edges} of {rays} at edges");
-        // At least five standard deviations above the mean: rays that are spawned where packets
-        // fall back often fall back, too.
+        // At least five standard deviations above the means of fourteen seeds. Rays that are spawned
+        // where packets fall back often fall back, too.
         let least = match name {
             // A face, or a part of one, lies exactly in a face of the clip: only exact arithmetic
             // can prove that it is kept.
@@ -410,7 +410,8 @@ fn lanes_see_what_single_rays_see() {
             // extends, and far away the degree counts.
             "clipped cubic" => 400,
             "cubic" => 200,
-            "quartic" | "balls" => 50,
+            "quartic" => 50,
+            "balls" => 40,
             "sausages" => 30,
             "sextic" => 15,
             // Where a point has a large error bound, far away, so has the gradient around it.
@@ -425,7 +426,7 @@ fn lanes_see_what_single_rays_see() {
             // Rays along a plane across the axis, and tangent rays.
             _ if OF_HIGHER_DEGREE.contains(&name) => 12,
             // These have a tip, or are unbounded, too.
-            "double cone" => 400,
+            "double cone" => 350,
             _ => 500,
         };
         if asked * least >= rays {

@@ -20,11 +20,8 @@
 
 mod rays;
 
-use self::rays::PolynomialScratch;
-use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::{Own, largest};
 use crate::packet::rays::{NEVER, SLACK};
-use crate::packet::sink::Sink8;
 use crate::packet::skin::Skin;
 use durer_math::{F8, U, Vec3};
 use std::sync::Arc;
@@ -157,26 +154,5 @@ impl<const N: usize> Terms<N> {
         let e_half = (e * bend + slope * (16.0 * N as f64 * U)) * own.norm;
         let half = own.covector(Vec3::new(g.x * 0.5, g.y * 0.5, g.z * 0.5));
         Skin { f, half, e_f, e_half, bend: bend * (own.norm * own.norm * (1.0 + 16.0 * U)), room: NEVER }
-    }
-}
-
-impl<const N: usize> SolidKernel for Terms<N> {
-    type Scratch = PolynomialScratch<N>;
-
-    fn is_unbounded(&self) -> bool {
-        true
-    }
-
-    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut PolynomialScratch<N>) {
-        self.meet(seen, to, scratch);
-    }
-
-    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
-        self.holds(seen, at)
-    }
-
-    #[inline(always)]
-    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
-        self.skin(own, at.h, at.h1)
     }
 }

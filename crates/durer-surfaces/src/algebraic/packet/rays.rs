@@ -37,12 +37,13 @@
 
 use super::{Sizes, Terms};
 use crate::packet::convex::Hull;
-use crate::packet::kernel::KernelRays;
+use crate::packet::kernel::{FacePoints, KernelRays, SinkKernel};
 use crate::packet::local_frame::{Own, dot, largest, on};
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
 use crate::packet::rays::{RayLanes, SLACK};
 use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U, Vec3};
 
@@ -121,11 +122,17 @@ impl<const N: usize> Default for PolynomialScratch<N> {
     }
 }
 
-impl<const N: usize> Terms<N> {
+impl<const N: usize> SinkKernel for Terms<N> {
+    type Scratch = PolynomialScratch<N>;
+
+    fn is_unbounded(&self) -> bool {
+        true
+    }
+
     /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. Only
     /// crossings inside the faces of `cell` count. `leaving` describes rays that start on the
     /// surface, and whether the surface is turned.
-    pub(super) fn meet<K: Sink8>(
+    fn pass<K: Sink8>(
         &self,
         &KernelRays { own, rays, leaving, start, cell }: &KernelRays<'_>,
         to: &mut K,
@@ -172,11 +179,7 @@ impl<const N: usize> Terms<N> {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(super) fn holds(
-        &self,
-        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
-        (t, e): (F8, F8),
-    ) -> (u8, u8) {
+    fn sides(&self, &KernelRays { own, rays, start, .. }: &KernelRays<'_>, (t, e): (F8, F8)) -> (u8, u8) {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -191,6 +194,13 @@ impl<const N: usize> Terms<N> {
         )
     }
 
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.h, at.h1)
+    }
+}
+
+impl<const N: usize> Terms<N> {
     /// A bound on the error of `f` at points with coordinates up to `m` that are known within `e`;
     /// infinite if they are too far away.
     #[inline(always)]

@@ -14,11 +14,8 @@ mod groups;
 mod rays;
 
 use self::groups::{Group, groups};
-use self::rays::BlobScratch;
-use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::{Own, dot, largest};
 use crate::packet::rays::{NEVER, SLACK};
-use crate::packet::sink::Sink8;
 use crate::packet::skin::Skin;
 use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, U, Vec3};
@@ -145,22 +142,5 @@ impl Field {
     fn turned(&self, v: Vec3<F8>) -> Vec3<F8> {
         let [a, b, c] = Vec3::splats(self.rows);
         Vec3::new(dot(a, v), dot(b, v), dot(c, v))
-    }
-}
-
-impl SolidKernel for Fields {
-    type Scratch = BlobScratch;
-
-    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut BlobScratch) {
-        self.meet(seen, to, scratch);
-    }
-
-    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
-        self.holds(seen, at)
-    }
-
-    #[inline(always)]
-    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
-        self.skin(own, at.h, at.h1)
     }
 }

@@ -17,7 +17,7 @@
 
 use super::groups::Group;
 use super::{Field, Fields, TINY};
-use crate::packet::kernel::KernelRays;
+use crate::packet::kernel::{FacePoints, KernelRays, SinkKernel};
 use crate::packet::local_frame::{Own, dot, largest, on};
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
@@ -124,10 +124,12 @@ struct Segment {
     doubt: F8,
 }
 
-impl Fields {
+impl SinkKernel for Fields {
+    type Scratch = BlobScratch;
+
     /// Passes the crossings of each ray, or only the first one, and the doubts to `to`. `leaving`
     /// describes rays that start on the surface, and whether the surface is turned.
-    pub(super) fn meet<K: Sink8>(
+    fn pass<K: Sink8>(
         &self,
         &KernelRays { own, rays, leaving, start, .. }: &KernelRays<'_>,
         to: &mut K,
@@ -179,6 +181,30 @@ impl Fields {
         to.doubt(memory.open, F8::ZERO);
     }
 
+    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
+    /// outside, as bit masks; for rays relative to the filter's centre.
+    #[inline(never)]
+    fn sides(&self, &KernelRays { own, rays, start, .. }: &KernelRays<'_>, (t, e): (F8, F8)) -> (u8, u8) {
+        rays.isa.run_in_lanes(
+            #[inline(always)]
+            || {
+                let (o, d) = (own.point(start.h), own.vector(*rays.direction));
+                let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
+                let y = on(o, t, d);
+                let e_y = e_o + t.abs() * e_d + e * largest(d) + (largest(o) + largest(y)) * (4.0 * U);
+                let Skin { f, e_f, .. } = self.at(y, e_y);
+                (f.lt(-e_f).bits(), f.gt(e_f).bits())
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.h, at.h1)
+    }
+}
+
+impl Fields {
     /// Stores the pieces of all fields that the rays may meet, and adds up what the others could
     /// contribute. Returns false if there is no room.
     fn pieces(&self, isa: Isa, memory: &mut BlobScratch) -> bool {
@@ -195,27 +221,6 @@ impl Fields {
             }
         }
         true
-    }
-
-    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
-    /// outside, as bit masks; for rays relative to the filter's centre.
-    #[inline(never)]
-    pub(super) fn holds(
-        &self,
-        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
-        (t, e): (F8, F8),
-    ) -> (u8, u8) {
-        rays.isa.run_in_lanes(
-            #[inline(always)]
-            || {
-                let (o, d) = (own.point(start.h), own.vector(*rays.direction));
-                let (e_o, e_d) = (own.point_error(start.h1), own.vector_error(rays.d1));
-                let y = on(o, t, d);
-                let e_y = e_o + t.abs() * e_d + e * largest(d) + (largest(o) + largest(y)) * (4.0 * U);
-                let Skin { f, e_f, .. } = self.at(y, e_y);
-                (f.lt(-e_f).bits(), f.gt(e_f).bits())
-            },
-        )
     }
 
     /// The polynomial up to the next start or end of a piece.

@@ -23,12 +23,8 @@
 
 mod rays;
 
-use self::rays::RevolutionScratch;
-use crate::packet::PacketFilter;
-use crate::packet::kernel::{FacePoints, KernelRays, SolidKernel};
 use crate::packet::local_frame::Own;
 use crate::packet::rays::NEVER;
-use crate::packet::sink::Sink8;
 use crate::packet::skin::Skin;
 use durer_math::{F8, U, Vec3};
 
@@ -158,29 +154,4 @@ fn value(wall: &RevolutionWall, n: F8, v: F8) -> F8 {
     let p = p3.mul_add(v, p2).mul_add(v, p1).mul_add(v, p0);
     let q = v.mul_add(v, n) + wall.kappa;
     (q * wall.alpha).mul_add(q, F8::splat(wall.beta).mul_add(n, -p))
-}
-
-impl SolidKernel for RevolutionKernel {
-    type Scratch = RevolutionScratch;
-
-    fn face_of(&self, number: u32) -> u32 {
-        number.saturating_sub(self.walls.len() as u32 - 1).min(2)
-    }
-
-    fn is_operand(&self) -> bool {
-        self.walls.len() + 2 <= PacketFilter::FACES
-    }
-
-    fn pass<K: Sink8>(&self, seen: &KernelRays<'_>, to: &mut K, scratch: &mut RevolutionScratch) {
-        self.meet(seen, to, scratch);
-    }
-
-    fn sides(&self, seen: &KernelRays<'_>, at: (F8, F8)) -> (u8, u8) {
-        self.holds(seen, at)
-    }
-
-    #[inline(always)]
-    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
-        self.skin(own, at.face, at.h, at.h1)
-    }
 }

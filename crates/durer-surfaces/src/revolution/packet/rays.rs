@@ -2,12 +2,14 @@
 //! of their points are inside.
 
 use super::{Bounded, RevolutionKernel, value};
-use crate::packet::kernel::KernelRays;
+use crate::packet::PacketFilter;
+use crate::packet::kernel::{FacePoints, KernelRays, SinkKernel};
 use crate::packet::local_frame::Own;
 use crate::packet::polynomial_roots::{Part8, Poly8, Root8};
 use crate::packet::quadric::Start;
 use crate::packet::rays::{CLEAR, RayLanes, SLACK};
 use crate::packet::sink::Sink8;
+use crate::packet::skin::Skin;
 use durer_math::scale::pow2;
 use durer_math::{F8, M8, U};
 
@@ -56,10 +58,20 @@ pub(crate) struct RevolutionScratch {
     root: Root8,
 }
 
-impl RevolutionKernel {
+impl SinkKernel for RevolutionKernel {
+    type Scratch = RevolutionScratch;
+
+    fn face_of(&self, number: u32) -> u32 {
+        number.saturating_sub(self.walls.len() as u32 - 1).min(2)
+    }
+
+    fn is_operand(&self) -> bool {
+        self.walls.len() + 2 <= PacketFilter::FACES
+    }
+
     /// Passes the crossings of each ray, or only the first one of each wall, and the doubts to
     /// `to`. `leaving` describes rays that start on the surface, and whether the surface is turned.
-    pub(super) fn meet<K: Sink8>(
+    fn pass<K: Sink8>(
         &self,
         &KernelRays { own, rays, leaving, start, .. }: &KernelRays<'_>,
         to: &mut K,
@@ -106,11 +118,7 @@ impl RevolutionKernel {
     /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
     /// outside, as bit masks; for rays relative to the filter's centre.
     #[inline(never)]
-    pub(super) fn holds(
-        &self,
-        &KernelRays { own, rays, start, .. }: &KernelRays<'_>,
-        (t, e): (F8, F8),
-    ) -> (u8, u8) {
+    fn sides(&self, &KernelRays { own, rays, start, .. }: &KernelRays<'_>, (t, e): (F8, F8)) -> (u8, u8) {
         rays.isa.run_in_lanes(
             #[inline(always)]
             || {
@@ -145,6 +153,13 @@ impl RevolutionKernel {
         )
     }
 
+    #[inline(always)]
+    fn points(&self, own: &Own, at: &FacePoints) -> Skin {
+        self.skin(own, at.face, at.h, at.h1)
+    }
+}
+
+impl RevolutionKernel {
     /// Computes where the rays pass height `i`.
     #[inline(never)]
     fn level(&self, rays: &RayLanes<'_>, i: usize, memory: &mut RevolutionScratch) {
