@@ -467,9 +467,16 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
     let eta = f.v.abs() + 2.0 * f.e + away;
     let square = sure * sure - 4.0 * bend * eta;
     let back = |x: f64| scale2(x, scale);
-    let sheet = length.is_finite() && square > 0.0 && bend * (2.0 * eta) < sure * sure / 64.0;
-    let (normal, off, tip) = if sheet {
-        (g * (1.0 / length), 2.0 * eta / (sure + square.sqrt()) * (1.0 + 64.0 * U), false)
+    // A ray that is widened to find a tip is known within `err`; the point is about `|G| / h` from a
+    // tip, if there is one. Three times `err` leaves room for a placement.
+    let err = if at.local().is_widened { e_y.x + e_y.y + e_y.z } else { 0.0 };
+    let sheet = length.is_finite()
+        && square > 0.0
+        && bend * (2.0 * eta) < sure * sure / 64.0
+        && length > 16.0 * bend * err;
+    let (leave, tip) = if sheet {
+        let off = 2.0 * eta / (sure + square.sqrt()) * (1.0 + 64.0 * U);
+        (Leave { normal: g * (1.0 / length), off, aside: Vec3::ZERO }, false)
     } else {
         let n = if length > 0.0 && length.is_finite() {
             // Near a tip its squares may be below the normal numbers.
@@ -478,8 +485,10 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
         } else {
             shape.tip(y1)
         };
-        (n, leave(shape, y1, n, lost + Vec3::new(tau, tau, tau)), true)
+        let e = tau + 3.0 * err;
+        (leave(shape, y1, n, lost + Vec3::new(e, e, e)), true)
     };
+    let Leave { normal, off, aside } = leave;
     let least = if tip { least_step(p) } else { f64::MIN_POSITIVE };
     let mut point =
         SurfacePoint::new(p, dp.map(|x| back(x) + f64::MIN_POSITIVE), back(off) + least, normal.to_normal());
@@ -487,6 +496,7 @@ fn resolve_here<const N: usize, Z: PolynomialSurface<N>>(
         true => (f64::INFINITY, back(off / 64.0)),
         false => (scale2(bend / length * (1.0 + 1.0 / 1024.0), -scale), 0.0),
     };
+    point.aside = aside.map(back);
     if need.contains(Need::UV) || need.contains(Need::DERIVATIVES) {
         let chart = shape.chart(y1, normal);
         point.uv = chart.uv;
@@ -532,22 +542,64 @@ fn project<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, mut y: Vec3) -> (
     (y, f, g, bend)
 }
 
-/// A distance along `n` in both directions at which the sign of `f` is certain, also for all points
-/// within `e` and a 64th of the distance.
-#[inline(always)]
-fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e: Vec3) -> f64 {
-    let mut way = 64.0 * (e.max_abs() + U * y.max_abs());
-    for _ in 0..120 {
+/// How rays leave a point: from `aside + off normal` and from `aside - off normal`, counted from it.
+struct Leave {
+    normal: Vec3,
+    off: f64,
+    aside: Vec3,
+}
+
+/// Starts on both sides of a point `y` without a tangent plane, at the same distance, where the sign
+/// of `f` is certain, also for all points within `e` and a 32nd of the distance.
+///
+/// They lie along `n`, unless `f` has the same sign in both directions (two bodies meet there, or two
+/// gaps) or no certain sign however far. Then they lie along any two of `n`, `-n` and the directions
+/// of a cube. If all that have a sign have the same (the zeros of a square), no side is known.
+#[cold]
+#[inline(never)]
+fn leave<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3, n: Vec3, e: Vec3) -> Leave {
+    let sign = |v: Vec3, way: f64| {
         let slack = way * (1.0 / 32.0);
-        let e = e + Vec3::new(slack, slack, slack);
-        let plus = value(shape, y + n * way, e).sign();
-        let minus = value(shape, y - n * way, e).sign();
-        if plus.is_some_and(Ordering::is_ne) && minus.is_some_and(Ordering::is_ne) {
+        value(shape, y + v * way, e + Vec3::new(slack, slack, slack)).sign().filter(|sign| sign.is_ne())
+    };
+    let first = 64.0 * (e.max_abs() + U * y.max_abs());
+    let ways = || (0..120).map(|round| scale2(first, round));
+    let mut along_n = None;
+    for way in ways() {
+        if let (Some(plus), Some(minus)) = (sign(n, way), sign(-n, way)) {
+            if plus != minus {
+                let normal = if plus == Greater { n } else { -n };
+                return Leave { normal, off: way, aside: Vec3::ZERO };
+            }
+            along_n = Some(way);
             break;
         }
-        way *= 2.0;
     }
-    way
+    // The surface's size is about one: farther away nothing belongs to the point, if it is known.
+    for way in ways().take_while(|&way| along_n.is_none() || way <= 1.0) {
+        let candidates = || [n, -n].into_iter().chain(directions().flat_map(|v| [v, -v]));
+        let with = |wanted| candidates().find(|&v| sign(v, way) == Some(wanted));
+        let (Some(outside), Some(inside)) = (with(Greater), with(Less)) else {
+            continue;
+        };
+        let apart = outside - inside;
+        let length = apart.length();
+        return Leave {
+            normal: apart * (1.0 / length),
+            off: 0.5 * way * length * (1.0 + 8.0 * U),
+            aside: (inside + outside) * (0.5 * way),
+        };
+    }
+    Leave { normal: n, off: along_n.unwrap_or_else(|| scale2(first, 120)), aside: Vec3::ZERO }
+}
+
+/// The thirteen directions of a cube: to its faces, edges and vertices, without their opposites.
+fn directions() -> impl Iterator<Item = Vec3> {
+    (14..27).map(|code| {
+        let axis = |p: u32| f64::from(code / p % 3) - 1.0;
+        let v = Vec3::new(axis(9), axis(3), axis(1));
+        v * (1.0 / v.length())
+    })
 }
 
 /// The exact sign of a quadratic in the ray's own parameter at a root of the surface, for clipping;
@@ -589,10 +641,7 @@ pub fn longitude_and_latitude(y: Vec3, n: Vec3) -> Chart {
 #[inline(always)]
 pub fn steepest<const N: usize, Z: PolynomialSurface<N>>(shape: &Z, y: Vec3) -> Vec3 {
     let mut best = (Vec3::Z, -1.0);
-    for code in 14..27 {
-        let axis = |p: u32| f64::from(code / p % 3) - 1.0;
-        let v = Vec3::new(axis(9), axis(3), axis(1));
-        let v = v * (1.0 / v.length());
+    for v in directions() {
         let value =
             |y: Vec3| shape.at(&y.to_array().map(EFloat::<f64>::exact), &EFloat::exact(1.0)).value().abs();
         let least = value(y + v * (1.0 / 1024.0)).min(value(y - v * (1.0 / 1024.0)));

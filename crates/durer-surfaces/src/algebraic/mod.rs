@@ -440,7 +440,9 @@ impl Algebraic for AlgebraicSurface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::{Exact, Feature, TestRng, ZeroOracle, check_many, exact3};
+    use crate::laws::{self, Exact, Feature, TestRng, ZeroOracle, all_roots, check_many, exact3};
+    use crate::{DynSurface, LocalPoint, Placed};
+    use durer_math::{Affine, Point3, Ray, RaySide};
 
     fn oracle(order: u32, coefficients: &[f64], size: f64) -> ZeroOracle {
         let terms = coefficients.iter().zip(powers(order)).filter(|(c, _)| **c != 0.0);
@@ -477,6 +479,47 @@ mod tests {
         (tally.grazing, tally.median_width())
     }
 
+    /// Rays that leave a node, where two bodies meet or two gaps, start on the requested side.
+    #[test]
+    fn rays_leave_a_node_on_their_side() {
+        let cone = |s: f64| vec![([2, 0, 0], s), ([0, 2, 0], s), ([0, 0, 2], -s)];
+        let with = |mut terms: Vec<([u32; 3], f64)>, more: [u32; 3], c: f64| {
+            terms.push((more, c));
+            terms
+        };
+        let surfaces = [
+            (3, with(cone(1.0), [3, 0, 0], 1.0)),
+            (3, with(cone(-1.0), [1, 1, 1], 0.5)),
+            (4, with(cone(1.0), [0, 0, 4], 1.0)),
+            (3, vec![([1, 1, 0], 1.0), ([0, 0, 3], 1.0)]),
+        ];
+        let far = |by: Vec3| Affine::translation(by).unwrap();
+        let mut tips = 0;
+        for (seed, (order, terms)) in surfaces.iter().enumerate() {
+            let surface = DynSurface::new(AlgebraicSurface::new(*order, &list(*order, terms)).unwrap());
+            for i in 0..100 {
+                let mut dice = laws::dice(900 + seed as u64, i);
+                let there = dice.vector() * dice.pick(&[0.0, 1.0, 1e3, 1e6]);
+                let maps = if i % 2 == 0 { [far(there), dice.map()] } else { [dice.map(), far(there)] };
+                let placed =
+                    maps.iter().fold(surface.clone(), |s, map| DynSurface::new(Placed::new(s, *map)));
+                let node = maps.iter().fold(Point3::ORIGIN, |p, map| map.point(p));
+                let origin = node - dice.vector() * 4.0;
+                let ray = Ray::new(origin, node - origin);
+                for root in all_roots(&placed, &ray) {
+                    let point = placed.resolve(&LocalRay::new(&ray), &root, Need::ALL);
+                    tips += u32::from(point.aside != Vec3::ZERO);
+                    for (side, wanted) in [(RaySide::Front, Side::Out), (RaySide::Back, Side::In)] {
+                        let start = point.spawn_from(side, dice.vector());
+                        let found = placed.side(&LocalPoint::new(start.origin));
+                        assert_eq!(found, wanted, "{seed} {i}: {side:?} {point:?}");
+                    }
+                }
+            }
+        }
+        assert!(tips > 200, "{tips} tips");
+    }
+
     /// x³ + y z² - 3 at z = 2^k, where the gradient, (3 x², z², 2 y z), leaves the range of f64 or
     /// its square does.
     #[test]
@@ -485,8 +528,8 @@ mod tests {
         let surface = AlgebraicSurface::new(3, &list).unwrap();
         for k in [0, 100, 255, 256, 300, 500, 511, 512, 600, 1000] {
             let z = ldexp(1.0, k);
-            let ray = durer_math::Ray::new(Point3::new(1.0, 8.0, z), Vec3::new(0.0, -1.0, 0.0));
-            let roots = crate::laws::all_roots(&surface, &ray);
+            let ray = Ray::new(Point3::new(1.0, 8.0, z), Vec3::new(0.0, -1.0, 0.0));
+            let roots = all_roots(&surface, &ray);
             assert_eq!(roots.len(), 1, "z = 2^{k}");
             let normal = surface.resolve(&LocalRay::new(&ray), &roots[0], Need::POINT).ng.to_vec();
             // y = 2 / z², so the normal is that of (3 / z², 1, 4 / z³).
@@ -502,15 +545,12 @@ mod tests {
     fn normals_far_out_are_placed_as_gradients_are() {
         let list = list(3, &[([3, 0, 0], 1.0), ([0, 1, 2], 1.0), ([0, 0, 0], -3.0)]);
         let rows = [[2.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 4.0]];
-        let map = durer_math::Affine::new(rows, Point3::ORIGIN).unwrap();
-        let surface = crate::Placed::new(AlgebraicSurface::new(3, &list).unwrap(), map);
+        let map = Affine::new(rows, Point3::ORIGIN).unwrap();
+        let surface = Placed::new(AlgebraicSurface::new(3, &list).unwrap(), map);
         for k in [0, 100, 255, 256, 300, 500] {
             let z = ldexp(1.0, k);
-            let ray = durer_math::Ray::new(
-                map.point(Point3::new(1.0, 8.0, z)),
-                map.vector(Vec3::new(0.0, -1.0, 0.0)),
-            );
-            let roots = crate::laws::all_roots(&surface, &ray);
+            let ray = Ray::new(map.point(Point3::new(1.0, 8.0, z)), map.vector(Vec3::new(0.0, -1.0, 0.0)));
+            let roots = all_roots(&surface, &ray);
             assert_eq!(roots.len(), 1, "z = 2^{k}");
             let normal = surface.resolve(&LocalRay::new(&ray), &roots[0], Need::POINT).ng.to_vec();
             // The gradient of the local frame times the inverse.
@@ -593,9 +633,8 @@ mod tests {
     fn an_order_of_sixteen_is_fine() {
         let high = list(16, &[([16, 0, 0], 1.0), ([0, 14, 2], -3.0), ([0, 0, 16], 2.0), ([0, 0, 0], -1.0)]);
         let surface = AlgebraicSurface::new(16, &high).unwrap();
-        let ray = durer_math::Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X);
-        let found: Vec<_> =
-            crate::laws::all_roots(&surface, &ray).iter().map(|r| (r.lo, r.hi, r.sign)).collect();
+        let ray = Ray::new(Point3::new(-3.0, 0.0, 0.0), Vec3::X);
+        let found: Vec<_> = all_roots(&surface, &ray).iter().map(|r| (r.lo, r.hi, r.sign)).collect();
         assert!(
             matches!(found[..], [(a, b, -1), (c, d, 1)] if a <= 2.0 && b >= 2.0 && c <= 4.0 && d >= 4.0),
             "{found:?}"
