@@ -34,13 +34,14 @@ struct Leave {
     slack: f64,
 }
 
-/// By how much a polynomial in `z` differs at `z` from its value at zero, rounded: without the
-/// constant coefficient the sign is right also for a small `z`.
+/// By how much a polynomial in `z` differs at `z` from its value at zero. Without the constant
+/// coefficient the sign is right also for a small `z`.
 #[inline(always)]
-fn rise<const M: usize>(p: &[EFloat; M], z: f64) -> f64 {
-    let mut sum = 0.0_f64;
+fn rise<const M: usize>(p: &[EFloat; M], z: f64) -> EFloat {
+    let z = EFloat::with_error(z, U * z.abs());
+    let mut sum = EFloat::zero();
     for k in (1..M).rev() {
-        sum = sum.mul_add(z, p[k].v);
+        sum = sum * z + p[k];
     }
     sum * z
 }
@@ -257,17 +258,25 @@ impl SphereSweep {
         );
         // The ball that touches the surface here is the one with the least |y - c|² - r². Newton's
         // method finds it if its steps are small. Where it does not, as next to an end towards which
-        // the value falls without a minimum, an end with a lesser value is nearer.
+        // the value falls without a minimum, an end without a greater value is nearer: of balls that
+        // touch each other here from within, the largest.
         for _ in 0..2 {
             let p = curve.about::<M>(x);
             let step = -0.5 * p[1].v / p[2].v;
-            if p[2].v > 0.0 && step.abs() < 1.0 / 64.0 {
+            if p[2].lo() > 0.0 && step.abs() < 1.0 / 64.0 {
                 x = (x + step).clamp(-1.0, 1.0);
-            } else {
-                let [left, right] = [rise(&p, -1.0 - x), rise(&p, 1.0 - x)];
-                if left.min(right) < 0.0 {
-                    x = if left < right { -1.0 } else { 1.0 };
-                }
+                continue;
+            }
+            let [left, right] = [rise(&p, -1.0 - x), rise(&p, 1.0 - x)];
+            let radius = |x: f64| curve.place(x).1.abs();
+            let is_left = match (left - right).sign() {
+                Some(Ordering::Less) => true,
+                Some(Ordering::Greater) => false,
+                _ => radius(-1.0) > radius(1.0),
+            };
+            let (end, above) = if is_left { (-1.0, left) } else { (1.0, right) };
+            if above.lo() <= 0.0 {
+                x = end;
             }
         }
         let (c, signed, c1, r1) = curve.place(x);

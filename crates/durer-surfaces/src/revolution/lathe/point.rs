@@ -29,14 +29,19 @@ impl Lathe {
     }
 
     /// The parameter near `w` at which the profile is nearest to a point `[r, y]`: one step of
-    /// Newton's method, if it is a small one.
+    /// Newton's method, if it comes nearer. The bound of the position holds for any parameter.
     #[inline(always)]
     fn nearest(piece: &Piece, [r, y]: [f64; 2], w: f64) -> f64 {
-        let [[cr, cy], [r1, y1], _] = piece.slopes(w);
-        let (cr, r1) = if cr < 0.0 { (-cr, -r1) } else { (cr, r1) };
-        let step = ((r - cr) * r1 + (y - cy) * y1) / (r1 * r1 + y1 * y1);
+        let from = |w: f64| {
+            let [[cr, cy], [r1, y1], _] = piece.slopes(w);
+            let (cr, r1) = if cr < 0.0 { (-cr, -r1) } else { (cr, r1) };
+            ([r - cr, y - cy], [r1, y1])
+        };
+        let ([dr, dy], [r1, y1]) = from(w);
+        let step = (dr * r1 + dy * y1) / (r1 * r1 + y1 * y1);
         let moved = (w + step).clamp(-0.5, 0.5);
-        if step.abs() < durer_math::scale::pow2(-20) { moved } else { w }
+        let ([er, ey], _) = from(moved);
+        if er * er + ey * ey < dr * dr + dy * dy { moved } else { w }
     }
 
     #[inline(always)]
