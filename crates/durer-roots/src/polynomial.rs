@@ -92,7 +92,7 @@ impl PartToLine {
         }
     }
 
-    /// The ends of the image of `[l, r]`, ascending, within a rounding.
+    /// The ends of the image of `[l, r]`, ascending, each with one rounding.
     #[inline(always)]
     fn ends(self, l: f64, r: f64) -> (f64, f64) {
         match self {

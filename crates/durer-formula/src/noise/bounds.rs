@@ -269,9 +269,9 @@ impl Ends {
     }
 }
 
-/// A part along an axis, with bounds on the blend and its derivative.
+/// A part of a cell along an axis, with bounds on the blend function and its derivative.
 struct Within {
-    /// Half of its length.
+    /// Half of the part's length.
     half: Eight<f32>,
     f: Ends,
     slope: Ends,

@@ -230,12 +230,12 @@ impl Nearest {
         }
     }
 
-    /// The distance from a point, within its bounds.
+    /// The distance from a point: the middle of its bounds.
     pub fn value(self, p: [f64; 3]) -> f64 {
         if p.iter().any(|x| x.is_nan()) { f64::NAN } else { self.bounds(p.map(Interval::from)).mid() }
     }
 
-    /// The distances from eight points.
+    /// [`Nearest::value`] for eight points.
     pub(crate) fn values(self, [x, y, z]: [&F8; 3]) -> F8 {
         F8(core::array::from_fn(|i| self.value([x.0[i], y.0[i], z.0[i]])))
     }

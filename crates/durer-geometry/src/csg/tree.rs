@@ -288,7 +288,7 @@ struct Count {
     count: u32,
 }
 
-/// The present value of a leaf.
+/// The current value of a leaf.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bit {
     epoch: u64,

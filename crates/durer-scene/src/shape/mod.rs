@@ -62,11 +62,11 @@ pub enum Shape {
     Cone {
         /// The middle of one end.
         base: Point3,
-        /// The radius there.
+        /// The radius at `base`.
         base_radius: f64,
         /// The middle of the other end.
         cap: Point3,
-        /// The radius there.
+        /// The radius at `cap`.
         cap_radius: f64,
     },
     /// The plane of points `p` with `p . normal = distance |normal|`; its inside is behind the
@@ -173,11 +173,11 @@ pub enum Shape {
     Lemon {
         /// The middle of one end.
         base: Point3,
-        /// The radius there.
+        /// The radius at `base`.
         base_radius: f64,
         /// The middle of the other end.
         apex: Point3,
-        /// The radius there.
+        /// The radius at `apex`.
         apex_radius: f64,
         /// The radius of the arc from one end to the other.
         inner_radius: f64,
