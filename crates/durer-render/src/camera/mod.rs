@@ -173,7 +173,7 @@ pub fn on_picture(x: f64, size: u32) -> f64 {
     2.0 * x / f64::from(size) - 1.0
 }
 
-/// [`Camera::on_picture`] for eight coordinates.
+/// [`on_picture`] for eight coordinates.
 #[inline(always)]
 fn on_picture_lanes(x: F8, size: u32) -> F8 {
     x * 2.0 / f64::from(size) - F8::ONE

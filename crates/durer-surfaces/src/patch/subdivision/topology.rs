@@ -19,7 +19,7 @@
 //! in the convex hull of the mesh's points.
 //!
 //! The limit over a face depends on the points of the faces that touch it, and on the sharpness of
-//! edges at its own vertices: [`Topology::around`] extracts that part.
+//! edges at its own vertices: [`Adjacency::around`] extracts that part.
 
 use super::Scheme;
 use super::triangles::{NEAR, OPPOSITE, neighbour_weight};
