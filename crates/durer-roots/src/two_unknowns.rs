@@ -22,7 +22,7 @@ use durer_math::U;
 
 /// Covers the rounding of a few dozen f64 operations on bounds.
 pub const ROUNDED: f64 = 1.0 + 128.0 * U;
-/// Steps of Newton's method: from a start in its basin, six give all digits.
+/// The most steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 10;
 /// A zero is accepted where the relative change of slopes is less than this.
 const STEADY: f64 = 0.5;

@@ -16,7 +16,7 @@ use durer_math::eft::scale2;
 use durer_math::{Interval, U};
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, inverse, zero_in};
 
-/// Steps of Newton's method: from a start in its basin, six give all digits.
+/// The most steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 8;
 /// After a step below this, relative to a piece's width, the next one is below the rounding errors.
 const NEAR: f64 = durer_math::scale::pow2(-24);

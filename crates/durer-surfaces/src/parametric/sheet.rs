@@ -15,8 +15,8 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, U, Vec3};
 use durer_roots::two_unknowns::Content;
 
-/// Pieces farther than this from the ray's range, in units, are not looked at: far more than any
-/// bracket of a proven crossing is wide.
+/// Pieces farther than this from the ray's range, in units, are skipped. The bracket of a proven
+/// crossing is far narrower.
 const ROOM: f64 = 1.0 / 1024.0;
 
 /// Maps in units about a common centre.

@@ -214,7 +214,7 @@ pub(crate) fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Ne
     point.change_parameters(jacobian, need);
 }
 
-/// Whether a net is one of a patch.
+/// Checks that a net is valid for a patch.
 fn check(size: [usize; 2], points: &[[f64; 4]]) -> Result<(), PatchError> {
     if size.iter().any(|n| !(2..=cell::MOST).contains(n)) {
         return Err(PatchError::Size(size));
