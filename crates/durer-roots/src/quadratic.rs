@@ -210,7 +210,7 @@ fn scaled(x: EFloat, k: i32) -> EFloat {
     if k == 0 { x } else { x.scale2(k) }
 }
 
-/// The roots within the limits, or `None` if the numbers leave open what they are.
+/// The roots within the limits; `None` if rounding leaves them open.
 ///
 /// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it
 /// and `b` have the exponent 0.

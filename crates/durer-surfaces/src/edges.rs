@@ -1,11 +1,11 @@
 //! The side on which a ray passes an edge: the rule that triangles, meshes and polygons share.
 //!
-//! `U = d . ((b - o) x (a - o))` tells the side; where it is exactly zero, the ray is moved
-//! symbolically (see [`durer_math::predicates`]): then it never meets an edge, two faces that share
-//! one see opposite signs, and a closed mesh is crossed an even number of times. `U` does not
-//! change when the origin moves along the ray, so the re-centred ray serves as a filter for every
-//! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage
-//! of one under a placement.
+//! The sign of `U = d . ((b - o) x (a - o))` is the side. Where it is exactly zero, the ray is
+//! moved symbolically (see [`durer_math::predicates`]): then it never meets an edge, two faces that
+//! share one have opposite signs, and a closed mesh is crossed an even number of times. `U` does
+//! not change when the origin moves along the ray, so the re-centred ray serves as a filter for
+//! every ray, and what it leaves open is decided on the exact ray: the given one, or the exact
+//! preimage of one under a placement.
 
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};

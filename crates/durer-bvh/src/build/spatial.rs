@@ -48,7 +48,7 @@ const OVERLAP: f32 = 0.3;
 /// A range of fewer entries gets no spatial split: it is a few blocks.
 const LEAST: usize = 64;
 
-/// There may be one more reference for so many entries.
+/// The number of entries for which one more reference is allowed.
 pub(super) const BUDGET: usize = 4;
 
 /// A triangle in the tree's units.
@@ -301,7 +301,7 @@ impl Grid {
     }
 }
 
-/// A plane, and what is on both sides of it.
+/// A plane, and the extent and number of references on both sides of it.
 struct Cut {
     axis: usize,
     at: f32,

@@ -45,7 +45,7 @@ use durer_math::{F8, Isa, M8};
 /// bounds' own rounding.
 const VALUE_MARGIN: f32 = 2.0 * VALUE_ROUNDINGS + 16.0;
 const SLOPE_MARGIN: f32 = 2.0 * SLOPE_ROUNDINGS + 16.0;
-/// Pays for the roundings of sums of non-negative numbers: at most twelve in succession.
+/// Covers the roundings of sums of non-negative numbers: at most twelve in succession.
 const UP: f32 = 16.0;
 /// The largest value of a lattice point.
 pub(super) const CORNER: f64 = 33.0 / 64.0;

@@ -35,8 +35,8 @@ const WIDEST: f64 = 2.0;
 /// From here on unit cubes have no exact place.
 const FARTHEST: f64 = (1_u64 << 50) as f64;
 
-/// Cubes that matter are at most so many steps from the middle one: no distance without the offset is
-/// above 3.5 (see [`Nearest::everywhere`]), and half of the widest box is 1.
+/// The largest distance, in steps, of a relevant cube from the middle one: no distance without the
+/// offset is above 3.5 (see [`Nearest::everywhere`]), and half of the widest box is 1.
 const SHELLS: usize = 5;
 
 /// The slopes of as many random points are compared, which small boxes never reach. Of more nothing is

@@ -38,7 +38,7 @@ pub(crate) enum FileGamma {
     Srgb,
 }
 
-/// Reads the picture at `path`; `may_hold` is asked whether so many pixels may be kept.
+/// Reads the picture at `path`; `may_hold` returns whether that many pixels may be kept.
 pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHold<'_>) -> Result<Colours> {
     let bytes = source::read_bytes(path, limits, "a picture").map_err(Fault::Text)?;
     if bytes.is_empty() {

@@ -127,7 +127,7 @@ impl Format {
     }
 }
 
-/// Reads the picture at `path`; `may_hold` is asked whether so many heights may be kept.
+/// Reads the picture at `path`; `may_hold` returns whether that many heights may be kept.
 pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHold<'_>) -> Result<Picture> {
     let bytes = source::read_bytes(path, limits, "a picture").map_err(Fault::Text)?;
     if bytes.is_empty() {

@@ -76,7 +76,7 @@ impl Normal {
 }
 
 impl Parser<'_> {
-    /// Reads what stands in braces after `normal`; `base` is the normal that it changes.
+    /// Reads the block after `normal`, which changes the normal `base`.
     pub(crate) fn normal_block(&mut self, base: &Normal) -> Result<Normal> {
         self.expect(Mark::BraceOpen)?;
         let normal = self.normal_items(base, Mark::BraceClose)?;

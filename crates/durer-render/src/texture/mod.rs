@@ -111,7 +111,7 @@ impl<T> Blend<T> {
         })
     }
 
-    /// The weight of an entry in what is shown.
+    /// The weight of an entry in the result.
     pub(crate) fn part(&self, shown: Shown, entry: usize) -> f64 {
         match (shown, self) {
             (Shown::One(i), _) if i == entry => 1.0,

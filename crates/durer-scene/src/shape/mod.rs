@@ -31,8 +31,7 @@ use crate::{
     SweepSpline, Terrain,
 };
 
-/// A surface in its object's own frame, not yet checked: lowering builds it and names what is
-/// wrong.
+/// A surface in its object's own frame, not yet checked: lowering builds it or reports an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// All points at `radius` from `centre`.

@@ -13,7 +13,7 @@ use crate::{
 };
 use durer_math::{Aabb, Affine, Interval, Isa, U, Vec3};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = f64::MIN_POSITIVE;
 
 /// The surface `S` placed by an invertible affine map.
@@ -182,8 +182,8 @@ impl LocalRay<'_> {
     }
 }
 
-/// A point of the surface as the map places it, with its bounds, and how far in the surface's frame
-/// a tip may be: zero where the tangent plane proves the start.
+/// The image of a point of the surface, with its bounds, and the distance, in the surface's frame,
+/// within which a tip may be: zero where the tangent plane proves the start.
 #[inline(never)]
 fn place(map: &Affine, local: &SurfacePoint) -> (SurfacePoint, f64) {
     Isa::detect().run(

@@ -96,7 +96,7 @@ pub enum IfsError {
     /// The corners of the leaf lie in a plane, or are not finite.
     #[error("ifs: the corners of the tetrahedron must be finite and not lie in one plane")]
     Tetrahedron,
-    /// A number is beyond what can be computed with.
+    /// A number is too large.
     #[error("ifs: it is too large, up to {0:?}")]
     TooLarge(f64),
 }
@@ -139,7 +139,7 @@ struct System {
     leaf_holds_all: bool,
     /// Whether it is Menger's or Sierpinski's set, where all copies of a node lie in its leaf.
     is_lattice: bool,
-    /// Coordinates are counted from here, in units of `2^scale`.
+    /// The origin of the coordinates; their unit is `2^scale`.
     centre: Point3,
     scale: i32,
     /// The radius of a ball about the centre that holds the set.

@@ -134,14 +134,14 @@ impl Isosurface {
         }
     }
 
-    /// The same surface without the container's faces: a sheet.
+    /// The surface without the container's faces: a sheet.
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
         self
     }
 
-    /// The same solid without touching points: a ray that is certainly on one side before and
+    /// The solid without touching points: a ray that is certainly on the same side before and
     /// behind has not crossed. CSG as one formula has zeros where faces of two parts coincide,
     /// which are no surface of the result (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean
     /// operations on geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised

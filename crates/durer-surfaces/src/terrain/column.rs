@@ -1,7 +1,7 @@
-//! The solid under a sheet: its walls, and what is inside.
+//! The solid under a sheet: its walls and its inside.
 //!
 //! A wall is a plane over a border of the unit square. Below each edge `p q` of the sheet's border
-//! it has a piece without end downward, between the verticals through `p` and `q`:
+//! it has a piece, unbounded downward, between the verticals through `p` and `q`:
 //!
 //! ```text
 //!        p ──── q           The three lines, p q and both verticals, are passed by a ray by the

@@ -22,7 +22,7 @@ pub(crate) struct Points {
     fourth: f64,
     solid: bool,
     old: bool,
-    /// The noise of what all points with the same nearest point share.
+    /// The noise value that all points with the same nearest point share.
     grains: Grains,
 }
 
