@@ -2,11 +2,11 @@
 //!
 //! Of the light from a distance `s`, the fraction `t = exp(-d/D)` comes through, where `D` is the
 //! fog's distance and `d` the integral of its density along the way: `s` for uniform fog. The
-//! density of ground fog depends on the height `h` alone, so that `d = s (F(h_1) - F(h_0))/(h_1 -
-//! h_0)` for an integral `F` of the density. With turbulence it is `t = exp(-(d/D) (1 - min(1, k
-//! T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p` half-way, whose coordinates are
-//! multiplied by the turbulence, and `k` the depth of turbulence. This was found from POV-Ray's
-//! pictures.
+//! density of ground fog depends on the height `h` alone, so that
+//! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density. With turbulence it is
+//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p`
+//! half-way, whose coordinates are multiplied by the turbulence, and `k` the depth of turbulence.
+//! This was found from POV-Ray's pictures.
 
 use core::f64::consts::FRAC_PI_2;
 

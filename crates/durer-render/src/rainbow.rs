@@ -1,8 +1,8 @@
 //! Rainbows in front of the background or a hit.
 //!
-//! With the angle `a` between the ray and the rainbow's axis, the colour is the one at `(a -
-//! angle)/width + 1/2` in its list. Of the light from a distance `s`, the fraction `t =
-//! max(exp(-s/D), 1 - k (1 - transmit))` comes through: `D` is the rainbow's distance, and `k`
+//! With the angle `a` between the ray and the rainbow's axis, the colour is the one at
+//! `(a - angle)/width + 1/2` in its list. Of the light from a distance `s`, the fraction
+//! `t = max(exp(-s/D), 1 - k (1 - transmit))` comes through: `D` is the rainbow's distance, and `k`
 //! falls from 1 to 0 along a cubic towards the ends of the arc. The fraction `filter (1 - t)` of
 //! that light takes the colour. Where several rainbows overlap, their effects are averaged. This
 //! was found from POV-Ray's pictures.

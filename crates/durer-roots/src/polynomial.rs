@@ -6,10 +6,10 @@
 //! certain. The first two steps:
 //!
 //! 1. The polynomial is put into Bernstein form ([`Bernstein`]) over the stretch of the line where
-//!   roots may be. If all coefficients have one sign there is no root. This is the most frequent
-//!   case.
+//!    roots may be. If all coefficients have one sign there is no root. This is the most frequent
+//!    case.
 //! 2. Exactly one change of sign means one simple root. Otherwise the stretch is halved, the first
-//!   half first.
+//!    half first.
 //! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and
 //!    of its slope (Kantorovich), or by certain signs on either side.
 //!
@@ -653,8 +653,8 @@ fn is_skipped(place: PartToLine, limits: &Limits, l: f64, r: f64) -> bool {
     hi.next_up() < limits.lo || lo.next_down() > limits.hi
 }
 
-/// Converts `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch: `from
-/// + (1 - from)(x + 1) / 2`.
+/// Converts `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch:
+/// `from + (1 - from)(x + 1) / 2`.
 #[inline(always)]
 fn back(from: f64, x: f64) -> f64 {
     (0.5 - 0.5 * from).mul_add(x + 1.0, from)

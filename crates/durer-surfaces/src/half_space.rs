@@ -53,8 +53,8 @@ impl HalfSpace {
         Self { normal: self.normal.map(|x| -x), distance: -self.distance }
     }
 
-    /// The half-space placed by `map`: with `p' = c + L p` and the adjugate `A = det(L) L^-1`, `n .
-    /// p <= h` is `(A^T n) . p' <= det(L) h + (A^T n) . c` where `det(L) > 0`.
+    /// The half-space placed by `map`: with `p' = c + L p` and the adjugate `A = det(L) L^-1`,
+    /// `n . p <= h` is `(A^T n) . p' <= det(L) h + (A^T n) . c` where `det(L) > 0`.
     #[must_use]
     pub fn through(&self, map: &Affine) -> Self {
         let linear = map.linear();

@@ -49,7 +49,7 @@ impl Parser<'_> {
         Ok(scene::Shape::HeightField(Box::new(field.with_water_level(water_level))).into())
     }
 
-    /// The field of a picture: its type, if that is not told by the ending of its name, and its
+    /// Reads the picture of a height field: its type, unless the name's extension gives it, and its
     /// name.
     fn height_picture(&mut self, place: Place) -> Result<HeightField> {
         let mut format = None;

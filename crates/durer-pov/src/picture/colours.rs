@@ -28,9 +28,9 @@ pub(crate) enum Pixels {
 /// The meaning of the numbers of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FileGamma {
-    /// Nothing is said; usual files of this format are encoded as sRGB.
+    /// Not stated; files of this format are usually encoded as sRGB.
     UsuallySrgb,
-    /// Nothing is said; the numbers are taken as they are.
+    /// Not stated; the numbers are used without conversion.
     Unknown,
     /// Light is the number to this power.
     Power(f64),

@@ -37,7 +37,7 @@ pub(crate) enum NormalKind {
     Facets(f64),
 }
 
-/// The amount of a normal that says none.
+/// The default amount of a normal.
 const AMOUNT: f64 = 0.5;
 /// The distance at which heights are compared, if none is given.
 const ACCURACY: f64 = 0.02;

@@ -143,11 +143,11 @@ pub enum Shape {
     PathSweep(PathSweep),
     /// All balls whose centres and radii follow a spline of these: centre and radius each.
     SphereSweep(SweepSpline, Arc<[[f64; 4]]>),
-    /// A smooth curve through these points, a radius and a height each, turned about the y axis;
-    /// the first and the last point only tell slopes. Closed by flat ends unless the object is
+    /// A smooth curve through these points, a radius and a height each, rotated about the y axis;
+    /// the first and the last point only give slopes. Closed by flat ends unless the object is
     /// open.
     Sor(Arc<[[f64; 2]]>),
-    /// A spline through points, a radius and a height each, turned about the y axis.
+    /// A spline through points, a radius and a height each, rotated about the y axis.
     Lathe(LatheSpline, Arc<[[f64; 2]]>),
     /// A Bezier patch: a surface over the unit square.
     Patch(Arc<Patch>),

@@ -193,8 +193,8 @@ impl<'a> Line<'a> {
         Some(if event.sign < 0 { entry } else { exit })
     }
 
-    /// The face of an end whose faces f64 arithmetic does not tell apart; `None` if the line is not
-    /// exactly known.
+    /// The face of an end, where f64 cannot decide between faces; `None` if the line is not exactly
+    /// known.
     #[cold]
     #[inline(never)]
     pub(super) fn face(&self, event: &Event) -> Option<u32> {

@@ -17,8 +17,8 @@
 //! Copies are convex and closed, so each meets a line in a closed interval. The crossings are the
 //! ends of the union of these intervals: where copies overlap, share a face, an edge or a corner,
 //! the line stays inside and nothing is crossed. Whether two intervals touch is decided exactly:
-//! with integers for the Menger sponge and the Sierpinski tetrahedron, whose planes are `n.x = k /
-//! q^N`, else by exact arithmetic where f64 leaves it open.
+//! with integers for the Menger sponge and the Sierpinski tetrahedron, whose planes are
+//! `n.x = k / q^N`, else by exact arithmetic where f64 leaves it open.
 //!
 //! * `frame.rs`: rays in the frames of copies, in f64 with their errors and in any ring;
 //! * `leaf.rs`: the leaves, and the interval of a line in one;

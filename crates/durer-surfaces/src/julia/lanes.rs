@@ -9,15 +9,16 @@
 //!   2 |z_n| ρ' + ρ'² = ρ - e,    ρ' = (ρ - e) / (|z_n| + √(|z_n|² + ρ - e))
 //! ```
 //!
-//! of `z_n` is. As `√x <= (x + m²) / 2m` for any `m > 0`, none is within `2 m (ρ - e) / (2 m |z_n|
-//! + |z_n|² + m² + ρ - e)` either, which needs no root once the next point's `ρ` is known; `m` is
-//! `|z_n|` or 1/2. The rounding of the next point is included: `e = 10 U (|z_n|² + |c|)`, as for
-//! balls (`orbit.rs`). Nor is any point inside within `|z_n| - R`. The steps forward and back cost
-//! half as much as balls along a stretch, and no length has to be guessed. Cubes have `3 |z_n|² ρ'
-//! + 3 |z_n| ρ'² + ρ'³`, for which `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is at most the root for any
-//! `m` not less than this `ρ'`: for `(ρ - e) / 3 |z_n|²`, and for the larger of 1 and `ρ - e`. Each
-//! of the two numbers of a hypercomplex one may move by `ρ`, which moves the root of their mean
-//! square by no more; the longer one is used on the way back.
+//! of `z_n` is. As `√x <= (x + m²) / 2m` for any `m > 0`, none is within
+//! `2 m (ρ - e) / (2 m |z_n| + |z_n|² + m² + ρ - e)` either, which needs no root once the next
+//! point's `ρ` is known; `m` is `|z_n|` or 1/2. The rounding of the next point is included:
+//! `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). Nor is any point inside within
+//! `|z_n| - R`. The steps forward and back cost half as much as balls along a stretch, and no
+//! length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, for which
+//! `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is at most the root for any `m` not less than this `ρ'`: for
+//! `(ρ - e) / 3 |z_n|²`, and for the larger of 1 and `ρ - e`. Each of the two numbers of a
+//! hypercomplex one may move by `ρ`, which moves the root of their mean square by no more; the
+//! longer one is used on the way back.
 //!
 //! **Near the set** balls around the orbits of eight stretches decide, as for the eight stretches
 //! of a single ray. How near, and how long the stretches are at first, depends on the orbit's

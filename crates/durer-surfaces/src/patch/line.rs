@@ -316,8 +316,8 @@ impl Found {
 impl<'a> View<'a> {
     /// Computes the error bounds. With `X = x - o_x W`, `Z = z - o_z W` and `f = X - k Z`,
     ///
-    /// * control points have the error `e_net`, the origin has `o_err` and the rounding of `o -
-    ///   base`;
+    /// * control points have the error `e_net`, the origin has `o_err` and the rounding of
+    ///   `o - base`;
     /// * `k` has the error `slope_err`, which is multiplied by `|Z|`;
     /// * `X`, `Z` and `f` round once each, by `U` of their size, and an evaluation has the error
     ///   `e_point`.

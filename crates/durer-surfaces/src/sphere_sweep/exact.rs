@@ -1,10 +1,11 @@
 //! The spans of a line by exact arithmetic.
 //!
-//! The runs of a piece are those of `D >= 0`, whose roots are isolated. The signs of `g(u) = |x -
-//! c(u)|² - r(u)²` at the point `x` of a number `s` decide where `s` lies relative to the interval
-//! of a run. `g` is positive where the line does not meet the ball, so if it has a root within the
-//! run the point is in a ball; if not, all balls are before the point or all behind it, and one
-//! ball decides which. So brackets can be as narrow as f64 allows, and two runs can be compared.
+//! The runs of a piece are those of `D >= 0`, whose roots are isolated. The signs of
+//! `g(u) = |x - c(u)|² - r(u)²` at the point `x` of a number `s` decide where `s` lies relative to
+//! the interval of a run. `g` is positive where the line does not meet the ball, so if it has a
+//! root within the run the point is in a ball; if not, all balls are before the point or all behind
+//! it, and one ball decides which. So brackets can be as narrow as f64 allows, and two runs can be
+//! compared.
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;

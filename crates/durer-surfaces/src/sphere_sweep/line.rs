@@ -569,8 +569,8 @@ enum Positive {
 /// Whether a polynomial in `z` is positive from `l` to `r`; zero is in between, and the value at
 /// zero may be arbitrarily small.
 ///
-/// Near zero, within `ρ`, it is at least `p_0 - |p_1 z| + κ z²` with `κ = p_2 - Σ_(k>2) |p_k|
-/// ρ^(k-2)`; the Bernstein form decides the rest.
+/// Near zero, within `ρ`, it is at least `p_0 - |p_1 z| + κ z²` with
+/// `κ = p_2 - Σ_(k>2) |p_k| ρ^(k-2)`; the Bernstein form decides the rest.
 #[inline(always)]
 fn positive<T: Word, const M: usize>(
     p: &[EFloat<T>; M],

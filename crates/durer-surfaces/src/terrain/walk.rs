@@ -9,9 +9,9 @@
 //!
 //! per axis, where `R` is the distance of the box's corners from its centre. The last term covers
 //! roundings: those of a border's coordinate are below `3.5 u <= 7 u R` (its quotient, its product
-//! with the width of a cell, its difference to the centre), a parameter at which it is met adds `4
-//! u` of `R + |o|`, a height `2 u` of `|o| + 2 S`. So every interval is widened by `E`, and no cell
-//! that holds a crossing is left out.
+//! with the width of a cell, its difference to the centre), a parameter at which it is met adds
+//! `4 u` of `R + |o|`, a height `2 u` of `|o| + 2 S`. So every interval is widened by `E`, and no
+//! cell that holds a crossing is left out.
 
 use super::heights::Block;
 use crate::{CentredRay, Root, Sink};

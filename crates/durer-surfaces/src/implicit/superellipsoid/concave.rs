@@ -25,9 +25,9 @@
 //!
 //! **The value.** As in `convex/gauge.rs`, with relative errors of `8 u` in logarithms and `4 u` in
 //! powers. The larger of two numbers is at least `2^(-1/p) N`, or `2^(-1/q) G`. So the error of
-//! `log N` is at most `(16 |a| + 20 / p + |log N|) u`, that of `log G` at most `(36 / p + 41 / q +
-//! 22 |log G|) u`, and the relative error of `G` from 1/4 to 4 at most `(25 / p + 29 / q + 36) u`.
-//! Outside this range the error is far below the difference from 1.
+//! `log N` is at most `(16 |a| + 20 / p + |log N|) u`, that of `log G` at most
+//! `(36 / p + 41 / q + 22 |log G|) u`, and the relative error of `G` from 1/4 to 4 at most
+//! `(25 / p + 29 / q + 36) u`. Outside this range the error is far below the difference from 1.
 
 use super::convex::{Gauge, Sample};
 use crate::implicit::Isosurface;

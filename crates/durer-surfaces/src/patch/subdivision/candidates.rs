@@ -1,8 +1,8 @@
-//! Joins crossings that are found twice, and decides what unproven candidates are.
+//! Joins crossings that are found twice, and decides the kind of unproven candidates.
 //!
-//! Patches share edges, so two of them may find the same crossing. A corner that the ray cannot tell
-//! from a point is an unproven candidate at its vertex. Candidates that may be the same crossing are
-//! joined. What the others are is decided as `alternation.rs` says.
+//! Patches share edges, so two of them may find the same crossing. A corner that is within the
+//! ray's error a single point is an unproven candidate at its vertex. Candidates that may be the
+//! same crossing are joined. Alternation decides the others (`alternation.rs`).
 
 use super::limit::{Extra, Limit};
 use crate::patch::line::Found;

@@ -46,8 +46,8 @@ pub(super) struct Pass<'a, 'r> {
 /// A bracket wider than this, relative to the lathe's size or to `t`, is computed again.
 const ENOUGH: f64 = 128.0 * U;
 
-/// The value of an equation with its error, in a form with few roundings: for slanted rays `P /
-/// d_y²`.
+/// The value of an equation with its error, in a form with few roundings: for slanted rays
+/// `P / d_y²`.
 #[inline(always)]
 fn value<T: Word>(
     equation: Equation,

@@ -40,11 +40,12 @@ impl Gauge {
     }
 
     /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface;
-    /// `None` where f64 cannot say. Planes between octants attract within `fold`.
+    /// `None` if f64 leaves it open. A point within `fold` of a plane between octants is moved onto
+    /// it.
     ///
     /// With the gradient `m` at `p` the gauge is at least `m.y` everywhere: outward, it exceeds 1
-    /// as soon as `m.y` does. Inward, it is at most what the chord from `p` to a point further down
-    /// says, where it is known.
+    /// as soon as `m.y` does. Inward, it is at most the value of the chord from `p` to a point
+    /// further down where it is known.
     pub(in crate::implicit) fn foot(&self, p0: Point3, (fold, reach): (f64, f64)) -> Option<Foot> {
         let isa = Isa::detect();
         let mut sample = Sample::new();

@@ -11,17 +11,18 @@
 //! ```
 //!
 //! **The value.** Logarithms have relative errors of `8 u`, powers of `4 u`, sums `1 + w` of `u`.
-//! An error of the exponent `p (b - a)` enters `log N` times the share of `w`, over `p`: `w |b - a|
-//! <= 0.54 / p`, so the larger the error of a small term, the smaller its weight. With `1/4 <= G <=
-//! 4` the larger of two logarithms is at most 3, the error of `log N` is `125 u` (`80 u` near the
-//! surface) and that of `log G` is `34 u` more: [`VALUE`] bounds the resulting error of `G`. A
-//! coordinate below [`LEAST`] is replaced by it, which moves the point by less than any rounding.
+//! An error of the exponent `p (b - a)` enters `log N` times the share of `w`, over `p`:
+//! `w |b - a| <= 0.54 / p`, so the larger the error of a small term, the smaller its weight. With
+//! `1/4 <= G <= 4` the larger of two logarithms is at most 3, the error of `log N` is `125 u`
+//! (`80 u` near the surface) and that of `log G` is `34 u` more: [`VALUE`] bounds the resulting
+//! error of `G`. A coordinate below [`LEAST`] is replaced by it, which moves the point by less than
+//! any rounding.
 //!
-//! **The gradient.** With `|log| <= 66` the error of each exponent is at most `p 1222 u` or `q 1972
-//! u`, that of a share `ln 2` times that: the components have relative errors of at most `1024 p u
-//! + 1536 q u + 2048 u`. The dual norm of a true gradient `n` is 1, and depends on the components'
-//! magnitudes only. So with relative errors of at most `ε` the dual norm is at most `1 + ε`, and
-//! `G(y) >= n.y / (1 + ε)`.
+//! **The gradient.** With `|log| <= 66` the error of each exponent is at most `p 1222 u` or
+//! `q 1972 u`, that of a share `ln 2` times that: the components have relative errors of at most
+//! `1024 p u + 1536 q u + 2048 u`. The dual norm of a true gradient `n` is 1, and depends on the
+//! components' magnitudes only. So with relative errors of at most `ε` the dual norm is at most
+//! `1 + ε`, and `G(y) >= n.y / (1 + ε)`.
 
 use durer_formula::lane_logs::{exp2, log2};
 use durer_math::scale::pow2;
