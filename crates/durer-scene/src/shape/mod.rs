@@ -275,7 +275,7 @@ impl Shape {
     }
 }
 
-/// How solids make a solid.
+/// The set operation that combines solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// The union of the parts, without surfaces inside.

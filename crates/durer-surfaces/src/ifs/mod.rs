@@ -79,7 +79,7 @@ pub enum IfsError {
         /// Its largest singular value, rounded.
         value: f64,
     },
-    /// The copies cannot be numbered.
+    /// There are too many copies to number.
     #[error("ifs: {maps} maps of depth {depth} make more than 2^106 leaves")]
     TooMany {
         /// How many maps there are.
