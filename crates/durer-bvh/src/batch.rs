@@ -43,14 +43,14 @@ pub trait Rays<R> {
         None
     }
 
-    /// Whether a triangle counts that the ray certainly hits within its range.
+    /// Whether the query accepts a triangle that the ray certainly hits within its range.
     fn admits(&self, ray: usize, triangle: Leaf) -> bool;
 
     /// Tests a ray against a leaf that it may hit.
     fn test(&mut self, ray: usize, leaf: Leaf) -> R;
 
     /// The last tests of eight rays, whose answers are not needed any more. Where there is no leaf,
-    /// the ray's number means nothing.
+    /// the ray's number is unused.
     fn last_tests(&mut self, rays: &[usize; PACKET], leaves: &[Option<Leaf>; PACKET]) {
         for (&ray, leaf) in rays.iter().zip(leaves) {
             if let Some(leaf) = leaf {
@@ -108,7 +108,7 @@ impl QueryKind<false> for ForAny {
     }
 }
 
-/// One of many rays.
+/// One ray of a batch.
 pub(crate) struct One<'a, B> {
     pub(crate) rays: &'a mut B,
     pub(crate) ray: usize,

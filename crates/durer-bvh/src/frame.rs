@@ -132,7 +132,7 @@ impl Frame {
         if self.centre[axis] == 0.0 { (x, 0.0) } else { two_diff(x, self.centre[axis]) }
     }
 
-    /// A ray whose origin is counted from the centre.
+    /// The ray with its origin relative to the centre.
     pub(crate) fn moved(self, ray: &Ray64) -> Ray64 {
         let (mut origin, mut error) = (ray.origin, ray.origin_error);
         for axis in 0..3 {

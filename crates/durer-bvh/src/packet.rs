@@ -27,7 +27,7 @@ struct Group<'a, K: Together<N>, B, M, const N: usize> {
     t_far: [f32; N],
     /// The greatest of `t_far` that is a number.
     far: f32,
-    /// The same limits, but without NaN, and the triangle that each ray holds.
+    /// The limits without NaN, and the triangle that each ray holds.
     reaches: &'a mut [SearchLimit; N],
     aim: PhantomData<M>,
 }

@@ -9,7 +9,7 @@ use crate::triangles::{Block, Filter, LANES, Verdict};
 /// The end of the search, and a triangle that is certainly hit no farther away.
 #[derive(Clone, Copy)]
 pub(crate) struct SearchLimit {
-    /// Nothing beyond this matters. The triangle that is held is not beyond it.
+    /// Nothing beyond this matters. The held triangle is not beyond it.
     pub(crate) t_far: f32,
     pub(crate) held: Candidate,
 }
@@ -50,7 +50,7 @@ impl Candidate {
 
 /// The caller's tests of leaves.
 pub(crate) trait LeafTest<R> {
-    /// Whether a triangle counts that is certainly hit.
+    /// Whether the query accepts a triangle that is certainly hit.
     fn admits(&self, triangle: Leaf) -> bool;
 
     /// Tests a leaf, or one triangle.
@@ -75,7 +75,7 @@ impl<R, A: Fn(Leaf) -> bool, F: FnMut(Leaf) -> R> LeafTest<R> for Callbacks<A, F
     }
 }
 
-/// A query; `ORDERED` tells whether near leaves should come first.
+/// A query; with `ORDERED` near leaves come first.
 pub(crate) trait TreeQuery<const ORDERED: bool> {
     /// Tests a leaf; returns whether the search is over.
     #[inline(always)]

@@ -10,11 +10,11 @@ pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
 /// The greatest length of a ray's segment in the tree with which boxes are tested; the ends of a
 /// ray from farther away are too uncertain.
 pub(crate) const LONGEST: f64 = (1 << 16) as f64;
-/// More than the roundings of a difference, of `1 / d`, of their product and of the terms that are
+/// A bound on the roundings of a difference, of `1 / d`, of their product and of the terms that are
 /// then added.
 pub(crate) const WIDEN: f64 = 8.0 * U;
 /// The least component of a direction that is distinguished from zero: within the greatest length
-/// it moves a ray by 2^-284, which is nothing.
+/// it moves a ray by 2^-284, which is negligible.
 pub(crate) const SLOWEST: f64 = f64::from_bits((1023 - 300) << 52);
 /// Added before rounding to the nearest f32, so that the result is a bound.
 pub(crate) const TO_NEAREST: f64 = U32 * (1.0 + 1.0 / (1 << 20) as f64);
@@ -165,14 +165,14 @@ impl TreeRay for Ray64 {
 ///
 /// They are computed in f64, once per ray: the ray is clipped to the tree's box and its origin
 /// moved to the entry. `r` is `1 / d`, clamped so that a ray parallel to an axis needs no branch.
-/// The constants carry the slack that pays for every rounding of the node test: of `r` (one unit),
-/// of the fused multiply-add (one), of the moved origin and the second order (a tenth), and, where
-/// `r` is clamped, for the changed direction (four tenths). So `near <= t <= far` for each `t` at
-/// which the exact ray is in the box. This equals growing each box by `1.5e-7 (M + |o|)`, with the
+/// The constants include the slack for every rounding of the node test: of `r` (one unit), of the
+/// fused multiply-add (one), of the moved origin and the second order (a tenth), and, where `r` is
+/// clamped, for the changed direction (four tenths). So `near <= t <= far` for each `t` at which
+/// the exact ray is in the box. This equals growing each box by `1.5e-7 (M + |o|)`, with the
 /// instructions of an unsafe test. Compare T. Ize, "Robust BVH ray traversal", Journal of Computer
 /// Graphics Techniques 2(2), 2013, which computes differences per plane instead.
 ///
-/// Three of each four numbers have a meaning: they are written and read all at once.
+/// Three of each four numbers are used; four are written and read at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CullRay {
     pub(crate) r: [f32; 4],
@@ -220,19 +220,20 @@ impl Rounding {
     }
 }
 
-/// A tree's box, to which exactly known rays are clipped; the fourth lane suits every ray.
+/// A tree's box, to which exactly known rays are clipped. The numbers in the fourth lane pass every
+/// test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(32))]
 pub(crate) struct Clip {
     /// The box, grown by [`MARGIN`].
     pub(crate) lo: [f64; 4],
     pub(crate) hi: [f64; 4],
-    /// The greatest magnitude of a coordinate.
+    /// The greatest magnitude of a coordinate along each axis.
     pub(crate) most: [f64; 4],
     /// The factor from the caller's lengths to tree units, which is exact; 0 if one number cannot
     /// hold it.
     pub(crate) shrink: f64,
-    /// The factor from tree units to the caller's lengths; 0 as above.
+    /// The factor from tree units to the caller's lengths; 0 if one number cannot hold it.
     pub(crate) grow: f64,
     /// The greatest magnitude of a coordinate, for rays that start [nearby](NEARBY).
     pub(crate) most32: [f32; 4],
@@ -274,8 +275,8 @@ impl Clip {
 }
 
 impl CullRay {
-    /// Clips a ray, whose origin is counted from the tree's centre, to the box `[lo, hi]` of the
-    /// tree; `None` if it certainly misses it.
+    /// Clips a ray to the tree's box `[lo, hi]`; its origin is relative to the tree's centre.
+    /// `None` if it certainly misses the box.
     #[inline(always)]
     pub(crate) fn new(
         line: &Ray64,
@@ -356,8 +357,8 @@ impl CullRay {
         })
     }
 
-    /// A ray so far away, or so uncertain, that in these units no box can be excluded: it meets
-    /// every box.
+    /// A ray that meets every box: for rays so far away or so uncertain that in these units no box
+    /// can be excluded.
     #[cold]
     fn everywhere(d: &[f64; 3], units: Units) -> Self {
         let big = 4.0 * LONGEST as f32;
@@ -385,12 +386,12 @@ impl CullRay {
 pub(crate) const INSIDE: (f32, f32) = (1.0 / (1 << 20) as f32, 1.0 / (1_u128 << 100) as f32);
 
 impl ClippedRay {
-    /// The limit of the search if nothing beyond the caller's `t` matters.
+    /// The limit of the search, in the node test's parameter, if nothing beyond the caller's `t`
+    /// matters.
     #[inline(always)]
     pub(crate) fn shortened(&self, t: f64) -> f32 {
         let way = self.units.inward(t) - self.t_enter;
-        // A ray that meets everything has its entry at minus infinity, so that it is never
-        // shortened.
+        // A ray that meets every box has its entry at minus infinity, so it is never shortened.
         up32(way.next_up()).min(self.t_far)
     }
 
@@ -403,7 +404,8 @@ impl ClippedRay {
     /// Converts a range of the caller's `t` to the parameter of the node test, rounded inward.
     #[inline(always)]
     pub(crate) fn inner(&self, (from, to): (f64, f64)) -> (f32, f32) {
-        // Nothing is met beyond the greatest length; so far away f32 is coarse, but finite.
+        // There is nothing to hit beyond the greatest length. So far away f32 is coarse, but
+        // finite.
         const BEYOND: f64 = (1_u64 << 40) as f64;
         let single = |x: f64| (self.units.inward(x) - self.t_enter).clamp(-BEYOND, BEYOND) as f32;
         // More than the roundings of the difference and to f32, and than the loss of the scaling by
@@ -418,7 +420,7 @@ impl ClippedRay {
     #[inline(always)]
     pub(crate) fn inside(&self) -> (f32, f32) {
         let step = |x: f32| x.abs().mul_add(INSIDE.0, INSIDE.1);
-        // Nothing is met beyond the greatest length.
+        // There is nothing to hit beyond the greatest length.
         let last = if self.t_far > LONGEST as f32 { LONGEST as f32 } else { self.t_far };
         (self.t_near + step(self.t_near), last - step(last))
     }

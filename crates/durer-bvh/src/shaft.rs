@@ -76,7 +76,7 @@ fn wide(planes: &[f32; WIDTH], half: usize, [first, second]: [f64; 2]) -> F8 {
     F8(planes) * first * second
 }
 
-/// Boxes whose corners are counted from `centre`, in the caller's coordinates.
+/// Boxes whose corners are relative to `centre`, in the caller's units.
 ///
 /// A sum rounds by `U |x + c|`, and so does the subtraction of the slack from it; `4 U (|x| + |c|)`
 /// is more than both and the rounding of the slack.

@@ -49,8 +49,8 @@ pub enum Step {
 impl Bvh {
     /// Reports the steps of [`Bvh::closest`] in the same order, but with whole leaves of triangles,
     /// piece by piece if they hold triangles that are in other leaves too. After a leaf the result
-    /// of `tell` is the new limit; else it is ignored. Returns whether the ray meets the tree's own
-    /// box.
+    /// of `tell` is the new limit; otherwise it is ignored. Returns whether the ray meets the
+    /// tree's own box.
     pub fn trace(&self, line: &Ray64, mut tell: impl FnMut(&Step) -> f64) -> bool {
         let Some(ray) = self.cull(&self.local_line(line), Rounding::Fused) else { return false };
         let mut t_far = ray.way.t_far;

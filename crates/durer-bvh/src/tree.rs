@@ -167,13 +167,13 @@ impl Bvh {
         self.kinds.get(kind as usize).is_some_and(|kind| kind.blocks.is_some())
     }
 
-    /// A ray as the tree's kernels need it: its origin is counted from the tree's centre.
+    /// A ray for the tree's kernels: its origin is relative to the tree's centre.
     #[inline(always)]
     pub(crate) fn local_line(&self, ray: &impl TreeRay) -> Ray64 {
         if self.frame.is_moved() { self.frame.moved(&ray.line()) } else { ray.line() }
     }
 
-    /// [`TreeRay::glance`] with the origin counted from the tree's centre, as packets need it.
+    /// [`TreeRay::glance`] with the origin relative to the tree's centre, for packets.
     #[inline(always)]
     pub fn glance(&self, ray: &impl TreeRay) -> Ray32 {
         if self.frame.is_moved() { self.frame.moved(&ray.line()).glance() } else { ray.glance() }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-/// Noise at so many points is compared.
+/// The number of points at which noise is compared.
 const CHECKED: usize = 300;
 /// The greatest difference at any of them.
 const ALLOWED: f64 = 1e-12;

@@ -23,8 +23,8 @@ struct Translated {
     smoothing: Smoothing,
 }
 
-/// The arguments with all switches of POV-Ray replaced; others stay. Only those of `render` are
-/// looked at.
+/// The arguments with all switches of POV-Ray replaced; others do not change. Only the arguments of
+/// `render` are translated.
 pub(crate) fn translated(arguments: Vec<OsString>) -> Result<Vec<OsString>, Failure> {
     let is_render = arguments.get(1).is_some_and(|word| word == "render");
     let has_switches = arguments.iter().skip(2).any(|word| {

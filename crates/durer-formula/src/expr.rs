@@ -103,7 +103,7 @@ impl Expr<'_> {
         self.then(Op::Abs(self.node))
     }
 
-    /// A whole power.
+    /// `self` to an integer power.
     #[must_use]
     pub fn powi(self, n: i32) -> Self {
         self.then(Op::Powi(self.node, n))

@@ -18,7 +18,7 @@ const fn exactly(x: f64) -> Interval {
     Interval { lo: x, hi: x }
 }
 
-/// The step `op`, or a simpler one; `at` tells what its operands are.
+/// The step `op`, or a simpler one; `at` returns the step of an operand.
 pub(super) fn simpler(op: Op, at: impl Fn(NodeId) -> Op) -> Simpler {
     let constant = |id: NodeId| if let Op::Constant(c) = at(id) { Some(c) } else { None };
     if let Some(c) = folded(&op, &constant) {

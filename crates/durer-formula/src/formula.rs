@@ -6,10 +6,10 @@ use crate::{Comparison, Function};
 use durer_math::Interval;
 use std::collections::HashMap;
 
-/// More steps than this no formula may have.
+/// The most steps of a formula.
 pub const MOST_STEPS: usize = 100_000;
 
-/// Names a step.
+/// A reference to a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub(crate) u32);
 
@@ -35,7 +35,7 @@ pub enum Op {
     Sqr(NodeId),
     /// The square root; undefined below zero.
     Sqrt(NodeId),
-    /// A whole power.
+    /// An integer power.
     Powi(NodeId, i32),
     /// A function of one number.
     Function(Function, NodeId),
@@ -45,11 +45,11 @@ pub enum Op {
     Sub(NodeId, NodeId),
     /// `a b`.
     Mul(NodeId, NodeId),
-    /// `a b` of numbers that are whole, which [`Builder::push`] finds out: what is a product to it
-    /// becomes this, and the other way round.
+    /// `a b` of integers. [`Builder::push`] detects whether the operands are integers, and converts
+    /// [`Op::Mul`] to this and back.
     MulWhole(NodeId, NodeId),
-    /// `k a` with a number `k` that is finite and not zero: what is a product with a constant to
-    /// [`Builder::push`] becomes this.
+    /// `k a` with a finite number `k` other than zero. [`Builder::push`] converts products with a
+    /// constant to this.
     Times(f64, NodeId),
     /// `a / b`; undefined at zero.
     Div(NodeId, NodeId),
@@ -69,18 +69,19 @@ pub enum Op {
     Nearest(&'static Nearest, [NodeId; 3]),
     /// 1 or 0.
     Compare(Comparison, NodeId, NodeId),
-    /// By the sign of the first: one of the three others, for below, at and above zero.
+    /// Selects by the sign of the first operand: one of the three others, for below, at and above
+    /// zero.
     Select([NodeId; 4]),
-    /// By the sign of the first: the second below zero, else the third, with the promise that both
-    /// have the same value where it is zero.
+    /// Selects by the sign of the first operand: the second below zero, else the third. The author
+    /// guarantees that both are equal where the first is zero.
     Joined([NodeId; 3]),
-    /// `a`, with the promise that the formula's value is at least `a`. Where that is more than 1,
-    /// far from zero, nothing that follows need be known.
+    /// `a`, with the guarantee that the formula's value is at least `a`. Where `a` exceeds 1, later
+    /// steps need no evaluation, because the value is far from zero.
     Settled(NodeId),
 }
 
 impl Op {
-    /// The same step with its operands renamed.
+    /// The step with its operands renamed.
     #[must_use]
     pub fn renamed(self, f: impl Fn(NodeId) -> NodeId) -> Self {
         match self {
@@ -142,15 +143,15 @@ impl Op {
         }
     }
 
-    /// Whether it is a whole number wherever it is defined, and so are the ends of its bounds;
-    /// `is_whole` tells that of its operands.
+    /// Whether its value is an integer wherever it is defined, and so are the ends of its bounds.
+    /// `is_whole` answers that for its operands.
     fn is_whole(&self, is_whole: impl Fn(NodeId) -> bool) -> bool {
         match *self {
             Self::Constant(c) => c.lo == c.hi && c.lo.fract() == 0.0,
             Self::Function(Function::Floor | Function::Ceil | Function::Trunc, _) | Self::Compare(..) => true,
             Self::Neg(a) | Self::Abs(a) => is_whole(a),
             // Where bounds of sums and products are rounded they are beyond 2^53, where all numbers
-            // are whole.
+            // are integers.
             Self::Add(a, b) | Self::Sub(a, b) | Self::MulWhole(a, b) | Self::Min(a, b) | Self::Max(a, b) => {
                 is_whole(a) && is_whole(b)
             }
@@ -159,7 +160,7 @@ impl Op {
         }
     }
 
-    /// Its bits, for finding equal steps.
+    /// A key for finding equal steps.
     pub(super) fn key(&self) -> (u8, u64, u64, u64) {
         let two = |tag: u8, a: NodeId, b: NodeId| (tag, u64::from(a.0), u64::from(b.0), 0);
         match *self {
@@ -201,7 +202,7 @@ impl Op {
     }
 }
 
-/// Why a [`Formula`] cannot be had.
+/// Why a [`Formula`] cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FormulaError {
     /// It has too many steps.
@@ -223,7 +224,7 @@ impl Formula {
         self.inputs
     }
 
-    /// The same formula with the noise of a table in place of durer's own.
+    /// The formula with the noise of a table instead of durer's own.
     #[must_use]
     pub fn with_noise(mut self, table: Option<&'static NoiseTable>) -> Self {
         for op in &mut self.ops {
@@ -258,12 +259,12 @@ impl Formula {
     }
 }
 
-/// Makes a [`Formula`]: each new step is folded if it is a constant, and found if it is there
+/// Builds a [`Formula`]: each new step is folded if it is a constant, and reused if it exists
 /// already.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     ops: Vec<Op>,
-    /// Which of them are whole numbers.
+    /// For each step, whether its value is an integer.
     whole: Vec<bool>,
     known: HashMap<(u8, u64, u64, u64), NodeId>,
 }
@@ -290,7 +291,7 @@ impl Builder {
         self.push(Op::Constant(Interval { lo: x + 0.0, hi: x + 0.0 }))
     }
 
-    /// A number that is known within an interval: pi, for one.
+    /// A number that is known within an interval, such as pi.
     pub fn enclosed(&mut self, x: Interval) -> Result<NodeId, FormulaError> {
         self.push(Op::Constant(x))
     }
@@ -298,7 +299,7 @@ impl Builder {
     /// A step; the operands must be this builder's.
     pub fn push(&mut self, op: Op) -> Result<NodeId, FormulaError> {
         if let Op::Times(k, a) = op {
-            // A product once more, which may have become one of whole numbers.
+            // Converts it to a product again, which may now be one of integers.
             let k = self.constant(k)?;
             return self.push(Op::Mul(k, a));
         }
@@ -325,7 +326,7 @@ impl Builder {
         Ok(id)
     }
 
-    /// Writes out `formula` with these numbers as its inputs; it must have as many.
+    /// Inserts `formula` with these steps as its inputs; their number must match.
     pub fn call(&mut self, formula: &Formula, arguments: &[NodeId]) -> Result<NodeId, FormulaError> {
         let mut here: Vec<NodeId> = Vec::with_capacity(formula.ops.len());
         for &op in &formula.ops {
@@ -337,15 +338,15 @@ impl Builder {
         Ok(here[formula.root.0 as usize])
     }
 
-    /// The formula of `inputs` numbers whose value is that of `root`; what does not matter to it is
-    /// left out.
+    /// The formula of `inputs` numbers with the value of `root`. Steps that do not affect it are
+    /// removed.
     pub fn finish(&self, root: NodeId, inputs: u32) -> Formula {
         let (ops, root) = live(&self.ops, root);
         Formula { ops, root, inputs }
     }
 }
 
-/// The steps that matter to `root`, renumbered.
+/// The steps that affect `root`, renumbered.
 pub(super) fn live(ops: &[Op], root: NodeId) -> (Vec<Op>, NodeId) {
     let mut used = vec![false; root.0 as usize + 1];
     used[root.0 as usize] = true;

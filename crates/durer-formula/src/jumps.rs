@@ -4,13 +4,13 @@
 //!   floor(x) on [k - h, k + h] is k - 1 or k, and nothing between
 //! ```
 //!
-//! Bounds of a step that jumps hold all between its sides, and so may bounds of the formula,
-//! however small the box is: `|x - floor(x) - 1/2|` is 1/2 at a whole number, from both sides, and
-//! bounds say 0 to 1/2. So each of the first three choices on a box halves the eight lanes: one
-//! half takes one side, the other one the other, and steps that ask for the same sign take the same
-//! side. At each point of the box every step is on one of its sides, so some lane's bounds hold its
-//! value there (by induction over the steps); the formula has a sign on the box if it has it in all
-//! lanes.
+//! Bounds of a step that jumps include all values between its sides, and so may bounds of the
+//! formula, however small the box is: `|x - floor(x) - 1/2|` is 1/2 at an integer, from both sides,
+//! but bounds give 0 to 1/2. So each of the first three choices on a box halves the eight lanes:
+//! one half takes one side, the other one the other, and steps that depend on the same sign take
+//! the same side. At each point of the box every step is on one of its sides, so some lane's bounds
+//! hold its value there (by induction over the steps); the formula has a sign on the box if it has
+//! it in all lanes.
 
 use super::formula::{NodeId, Op};
 use super::program::run_with;
@@ -19,15 +19,15 @@ use crate::{Dual, Function, I8, Number};
 use arrayvec::ArrayVec;
 use durer_math::{Interval, Point3, Vec3};
 
-/// Sides of so many choices are told apart: lanes are eight.
+/// The number of choices whose sides are distinguished: two to this power is the number of lanes.
 const MOST_JUMPS: usize = 3;
 
-/// The value that decides on which side a step is.
+/// The value that decides the side of a step.
 #[derive(Clone, Copy, PartialEq)]
 enum Choice {
     /// The sign of this step, for all that take zero to the same side: below, above.
     Sign(NodeId, [bool; 2]),
-    /// Its own.
+    /// The step's own value.
     Own,
 }
 
@@ -40,7 +40,7 @@ impl Choice {
     }
 }
 
-/// The one sign on a box, the same in all lanes of `x`, if it is certain beside what jumps.
+/// The sign on a box, the same in all lanes of `x`, if it is certain on both sides of all jumps.
 #[inline(always)]
 pub(super) fn sign_beside(ops: &[Op], x: &[I8; 3], registers: &mut [I8]) -> Option<bool> {
     let mut known: ArrayVec<Choice, MOST_JUMPS> = ArrayVec::new();
@@ -75,7 +75,7 @@ pub(super) fn sign_beside(ops: &[Op], x: &[I8; 3], registers: &mut [I8]) -> Opti
 }
 
 /// One side of a step in the lanes whose number has this bit, the other side in the others; `None`
-/// where it has no two sides.
+/// if it does not have two sides.
 #[inline(never)]
 fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
     let upper = |lane: usize| lane >> bit & 1 == 1;
@@ -92,7 +92,7 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
             for lane in (0..8).filter(|&lane| whole.partial >> lane & 1 == 0) {
                 let (told, held) = (left.lane(lane), value.lane(lane));
                 let (lo, hi) = (told.lo.max(held.lo), told.hi.min(held.hi));
-                // A side that is not there: anything is right of it.
+                // This side does not exist, so any value is valid.
                 if lo <= hi {
                     (out.lo.0[lane], out.hi.0[lane]) = (lo, hi);
                 }
@@ -159,7 +159,8 @@ fn halved(op: &Op, before: &[I8], value: &I8, bit: usize) -> Option<I8> {
     }
 }
 
-/// The gradient of what chooses a side in the last step that jumps by itself within `r` of `p`.
+/// The gradient of the value that selects the side of the last step that jumps by itself within `r`
+/// of `p`.
 #[inline(always)]
 pub(super) fn wall(ops: &[Op], p: Point3, r: f64, registers: &mut [Dual<I8>]) -> Option<Vec3> {
     let p = p.to_array();
@@ -183,14 +184,14 @@ pub(super) fn wall(ops: &[Op], p: Point3, r: f64, registers: &mut [Dual<I8>]) ->
     found
 }
 
-/// The gradient of what chooses between the sides of a step; `None` where it is zero or not known.
+/// The gradient of the value that selects the side of a step; `None` where it is zero or unknown.
 #[inline(never)]
 fn chooser(op: &Op, before: &[Dual<I8>], value: &Dual<I8>) -> Option<Vec3> {
     let at = |id: NodeId| &before[id.0 as usize].d;
     let slopes = match *op {
         Op::Function(_, a) | Op::Select([a, ..]) | Op::Atan2(a, _) => *at(a),
         Op::Compare(_, a, b) => I8::sub(at(a), at(b)),
-        // a - b k, the gradient of which is b times that of a/b where a/b is the whole number k.
+        // a - b k: its gradient is b times that of a/b where a/b is the integer k.
         Op::Rem(..) => value.d,
         _ => return None,
     };
@@ -198,8 +199,8 @@ fn chooser(op: &Op, before: &[Dual<I8>], value: &Dual<I8>) -> Option<Vec3> {
     (normal.is_finite() && normal != Vec3::ZERO).then_some(normal)
 }
 
-/// The less or the greater of two whole numbers that follow each other, as `upper` says of each
-/// lane; `None` where no lane has two.
+/// The lesser or, where `upper` returns true for the lane, the greater of two consecutive integers;
+/// `None` if no lane has two.
 fn one_of_two(x: &I8, upper: impl Fn(usize) -> bool) -> Option<I8> {
     let mut out = *x;
     let mut any = false;

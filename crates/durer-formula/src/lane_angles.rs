@@ -13,7 +13,7 @@ use durer_math::{F8, Isa, M8, U};
 
 /// Bound on an angle's error, relative to the angle: equal to that of the scalar functions.
 const ANGLE_ERROR: f64 = 16.0 * U;
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 /// Points whose larger coordinate is beyond this, or below its inverse, are left to the scalar
 /// functions.

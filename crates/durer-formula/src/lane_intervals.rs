@@ -20,7 +20,7 @@ use durer_math::{F8, Interval, M8};
 const LANES: usize = durer_math::lanes::LANES;
 /// `u (1 + 2 u)`.
 const PHI: f64 = durer_math::U * (1.0 + f64::EPSILON);
-/// Pays for results below the normal range, and is a normal number itself.
+/// Covers results below the normal range, and is a normal number itself.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 /// All integers below this are f64 numbers: a result that rounds to less is exact.
 const ALL_WHOLE: f64 = durer_math::scale::pow2(53);
@@ -36,7 +36,7 @@ pub struct I8 {
     pub hi: F8,
     /// Lanes (as bits) where the formula may be undefined somewhere.
     pub partial: u8,
-    /// Lanes where it is undefined everywhere; the interval there has no meaning. Such a lane is
+    /// Lanes where it is undefined everywhere; the interval there is meaningless. Such a lane is
     /// also in `partial`.
     pub empty: u8,
     /// Lanes where it may jump.
@@ -181,7 +181,7 @@ fn quotient_below(a: f64, b: f64) -> f64 {
     if is_below { q } else { below(q) }
 }
 
-/// A product that takes `0 inf` as 0, since an infinite end is never attained.
+/// A product with `0 inf = 0`, since an infinite end is never attained.
 #[inline(always)]
 fn times(a: f64, b: f64) -> f64 {
     let p = a * b;
@@ -442,7 +442,7 @@ impl Number for I8 {
         let may_below = c.lo.lt(F8::ZERO).bits();
         let may_at = (c.lo.le(F8::ZERO) & c.hi.ge(F8::ZERO)).bits();
         let may_above = c.hi.gt(F8::ZERO).bits();
-        // Usually it is the same one in all lanes.
+        // Usually the case is the same in all lanes.
         match (may_below, may_at, may_above) {
             (_, 0, 0) => return below.said(c, c),
             (0, 0, _) => return above.said(c, c),
@@ -582,7 +582,7 @@ fn pow(a: &I8, b: &I8) -> I8 {
     or_by_itself(a, b, crate::lane_powers::pow(a, b), Interval::pow)
 }
 
-/// Completes a packet result: lanes in `left` are computed one by one.
+/// Completes a packet result: computes the lanes in `left` one by one.
 #[inline(always)]
 fn or_by_itself(a: &I8, b: &I8, (out, left): (I8, u8), f: impl Fn(Interval, Interval) -> Range) -> I8 {
     let mut out = out.said(a, b);

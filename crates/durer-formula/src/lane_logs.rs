@@ -3,17 +3,17 @@
 //!
 //! **Logarithm.** `x = 2^e m` with `m` between the roots of 1/2 and 2, `ln m = 2 artanh s`,
 //! `s = (m - 1) / (m + 1)`, `|s| <= 0.1716`. `m - 1` is exact, the sum and the quotient round: `s`
-//! errs by `2 u` of itself. The series of `artanh s / s` in `z = s^2 <= 0.02945` is cut after
+//! has a relative error of `2 u`. The series of `artanh s / s` in `z = s^2 <= 0.02945` is cut after
 //! `z^9 / 19`, which omits `z^10 / 21 / (1 - z) < 0.22 u`; all but its first term are below
 //! `0.0101`, so that Horner's scheme, fused, errs by `1.1 u`. The product with `s` and the constant
 //! `2 log2 e` add `2 u`, the sum with `e` rounds once, and is at least `|log2 m|` where `e` is not
 //! zero. Together `6.5 u` of the logarithm; the stated bound is [`LOG2_ERROR`].
 //!
-//! **Power.** `t = k + f` with an integer `k` and `|f| <= 1/2`, exactly; `r = f ln 2` errs by `2 u`
-//! of itself, so `e^r` by `0.7 u`. The series is cut after `r^13 / 13!`, which omits `0.06 u`;
-//! Horner's scheme, fused, errs by `1.5 u` before its last rounding of at most `1.42 u`, of a value
-//! of at least 0.707. Together `3.1 u` of the power; the stated bound is [`EXP2_ERROR`].
-
+//! **Power.** `t = k + f` with an integer `k` and `|f| <= 1/2`, exactly; `r = f ln 2` has a
+//! relative error of `2 u`, so `e^r` one of `0.7 u`. The series is cut after `r^13 / 13!`, which
+//! omits `0.06 u`; Horner's scheme, fused, errs by `1.5 u` before its last rounding of at most
+//! `1.42 u`, of a value of at least 0.707. Together `3.1 u` of the power; the stated bound is
+//! [`EXP2_ERROR`].
 //!
 //! **Any power.** `x^p = 2^(p e + p log2 m)`: the product `p e` is computed with its error, an
 //! integer `k` is subtracted, and the rest has errors of `3.2 u |p|` from the logarithm of `m`, at

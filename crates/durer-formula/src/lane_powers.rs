@@ -14,7 +14,7 @@ use durer_math::{F8, Isa, M8, U};
 const FAR: f64 = 1000.0;
 /// A smaller base is replaced by this where a bound may be too large.
 const LEAST: f64 = durer_math::scale::pow2(-1000);
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// Bounds on powers, and the lanes that are computed.

@@ -17,7 +17,7 @@ const FAR: f64 = (1u64 << 20) as f64;
 const RELATIVE: f64 = 8.0 * durer_math::U;
 /// Bound on the error of the argument's reduction, if there is one.
 const ABSOLUTE: f64 = 2.0 * durer_math::U;
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 /// A quarter turn: the first 25 bits, the next 24, and the rest.
 const PARTS: [f64; 3] = [

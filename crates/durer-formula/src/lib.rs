@@ -1,13 +1,12 @@
-//! Formulas as tapes: `f(x, y, z)` as a list of steps that any number type can walk along.
+//! Formulas as tapes: `f(x, y, z)` as a list of steps that any number type can evaluate.
 //!
-//! A [`Formula`] is plain data: what a scene's `function { }` says, each subexpression once and
-//! constants folded. A [`Tape`] is a formula ready to be evaluated on any
-//! [`Number`]: on f64 for a value, on eight intervals for bounds on eight boxes
-//! or eight stretches of a ray (T. Duff, "Interval arithmetic and recursive subdivision for
-//! implicit functions and constructive solid geometry", SIGGRAPH 1992), on dual intervals for
-//! slopes. On a box where it is known which branch of a `min` or `select` counts, a tape can be
-//! [shortened](Tape::shortened) (M. Keeter, "Massively parallel rendering of complex closed-form
-//! implicit surfaces", ACM TOG 39(4), 2020).
+//! A [`Formula`] is plain data: the content of a scene's `function { }`, with each subexpression
+//! once and constants folded. A [`Tape`] is a formula ready to be evaluated on any [`Number`]: on
+//! f64 for a value, on eight intervals for bounds on eight boxes or eight stretches of a ray (T.
+//! Duff, "Interval arithmetic and recursive subdivision for implicit functions and constructive
+//! solid geometry", SIGGRAPH 1992), on dual intervals for slopes. On a box where the branch of a
+//! `min` or `select` is known, a tape can be [shortened](Tape::shortened) (M. Keeter, "Massively
+//! parallel rendering of complex closed-form implicit surfaces", ACM TOG 39(4), 2020).
 //!
 //! The number types are [`number`]: f64, eight f64 in lanes, eight intervals in lanes ([`I8`]), and
 //! [`Dual`] numbers over them. [`noise`] is Perlin's noise and distances to random points, with

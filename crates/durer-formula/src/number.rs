@@ -307,7 +307,7 @@ pub trait Slopes<T>: Copy {
     fn divided(a: &Self, k: &T) -> Self;
     /// One of three by the sign of `c`: below, at and above zero.
     fn selected(c: &T, below: &Self, at: &Self, above: &Self) -> Self;
-    /// The same slopes, with a mark for each that is exactly zero.
+    /// The slopes, with a mark for each that is exactly zero.
     fn settled(&self) -> Self;
     /// Whether all are known to be exactly zero.
     fn are_zero(&self) -> bool;

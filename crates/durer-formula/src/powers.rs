@@ -1,12 +1,12 @@
-//! Polynomials of one number, with bounds on what their coefficients are off by: what a formula is
-//! along a line, if it is no more than sums and products.
+//! Polynomials of one number, with bounds on the errors of their coefficients. A formula of sums
+//! and products is one along a line.
 //!
 //! ```text
 //!   p(s) = Σ c_k s^k,    each c_k within e_k
 //! ```
 //!
-//! Every operation bounds its own roundings. What is no polynomial, or of too high a degree, is
-//! [`Powers::UNKNOWN`], and so is all that is made of it.
+//! Every operation bounds its own roundings. A result that is no polynomial, or of too high a
+//! degree, is [`Powers::UNKNOWN`], and so is everything computed from it.
 
 use crate::noise::{Nearest, NoiseTable};
 use crate::{Comparison, Function, Joined, Number};

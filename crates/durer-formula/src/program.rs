@@ -16,7 +16,7 @@ pub struct Tape {
     ops: Arc<[Op]>,
 }
 
-/// Memory of a thread for a run of a tape.
+/// A thread's memory for evaluating tapes.
 type Registers<T> = LocalKey<Cell<Vec<T>>>;
 
 thread_local! {
@@ -29,7 +29,7 @@ thread_local! {
     static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
-/// Runs `f` with memory of this thread that is kept for the next time.
+/// Runs `f` with this thread's reusable memory.
 #[inline(always)]
 fn with_memory<T: Copy, R>(
     memory: &'static Registers<T>,
@@ -46,7 +46,7 @@ fn with_memory<T: Copy, R>(
     result
 }
 
-/// Walks along the steps. The result is the last one's.
+/// Evaluates the steps in order. The result is that of the last one.
 #[inline(always)]
 fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
     run_with(
@@ -58,8 +58,8 @@ fn run<T: Number>(ops: &[Op], inputs: &[T], registers: &mut [T]) -> T {
     )
 }
 
-/// The same; `amend` sees each step, those before it, and its value, which it may change. A step's
-/// value is put down where it stays: on the way there it would be copied once more.
+/// [`run`], with a function that receives each step, the values before it, and its value, and may
+/// change that. Values are written in place, which saves a copy.
 #[inline(always)]
 pub(super) fn run_with<T: Number>(
     ops: &[Op],
@@ -142,10 +142,10 @@ impl Tape {
         self.ops.is_empty()
     }
 
-    /// A number that equal tapes share, and others hardly ever.
+    /// A hash: equal tapes have equal numbers, and others hardly ever.
     pub fn fingerprint(&self) -> u64 {
-        // Whoever meets an equal number compares the steps: the multiplication of rustc's hash will
-        // do.
+        // Callers compare the steps of tapes with equal numbers, so the multiplication of rustc's
+        // hash suffices.
         self.ops.iter().fold(0, |hash, op| {
             let (tag, a, b, c) = op.key();
             [u64::from(tag), a, b, c].into_iter().fold(hash, |hash: u64, word| {
@@ -186,8 +186,8 @@ impl Tape {
         )
     }
 
-    /// The one sign on a box, which is the same in all lanes, if it is certain on either side of
-    /// what jumps there: positive is `true`.
+    /// The sign on a box, which is the same in all lanes, if it is certain on both sides of all
+    /// jumps there; positive is `true`.
     pub fn sign_beside_jumps(&self, x: &[I8; 3]) -> Option<bool> {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -197,8 +197,8 @@ impl Tape {
         })
     }
 
-    /// The gradient of what decides between two sides where the formula jumps within `r` of `p`,
-    /// per axis: a normal of the wall there, of either orientation. `None` where nothing jumps.
+    /// A normal, of either orientation, of the wall where the formula jumps within `r` of `p`, per
+    /// axis: the gradient of the value that selects the side. `None` if nothing jumps.
     pub fn wall(&self, p: Point3, r: f64) -> Option<Vec3> {
         with_memory(&DUALS, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -208,8 +208,8 @@ impl Tape {
         })
     }
 
-    /// Bounds of the values on eight boxes and of the slopes along what the inputs' derivatives
-    /// say.
+    /// Bounds of the values on eight boxes, and of the derivatives that follow from the inputs'
+    /// derivatives.
     pub fn slopes(&self, x: &[Dual<I8>; 3]) -> Dual<I8> {
         with_memory(&DUALS, self.ops.len(), zero(), |registers| {
             Isa::detect().run_in_lanes(
@@ -247,7 +247,7 @@ impl Tape {
         })
     }
 
-    /// The polynomial that it is where the coordinates are these.
+    /// The polynomial that results from these coordinates.
     pub fn along(&self, x: &[Powers; 3]) -> Powers {
         with_memory(&POWERS, self.ops.len(), zero(), |registers| {
             Isa::detect().run(
@@ -264,8 +264,8 @@ impl Tape {
     }
 
     /// Bounds on eight boxes, and for each box that `wanted` names a shorter tape with the same
-    /// exact values there, if there is one. Boxes on which the formula is positive must not be
-    /// wanted: not all of it need have been evaluated there.
+    /// exact values there, if there is one. `wanted` must not name boxes on which the formula is
+    /// positive: there it may not be fully evaluated.
     pub fn shortened(&self, x: &[I8; 3], wanted: impl Fn(usize, &I8) -> bool) -> (I8, [Option<Self>; 8]) {
         with_memory(&BOXES, self.ops.len(), zero(), |registers| {
             let bounds = self.bounds_with(x, registers);
@@ -276,9 +276,9 @@ impl Tape {
         })
     }
 
-    /// Bounds on eight boxes, as [`Tape::shortened`]. Of each box that `wanted` names, and on which
-    /// something is decided, `take` is shown what, as words that say all that a shorter tape
-    /// depends on, and how to make that.
+    /// Bounds on eight boxes, as in [`Tape::shortened`]. For each box that `wanted` names and that
+    /// decides a step, `take` receives the decisions as words, which determine the shorter tape,
+    /// and a function that builds it.
     pub fn decided_on(
         &self,
         x: &[I8; 3],
@@ -308,9 +308,9 @@ impl Tape {
         })
     }
 
-    /// The tape with what is decided on one lane's box taken as decided.
+    /// The tape with the decisions of one lane's box applied.
     fn shorter(&self, registers: &[I8], lane: usize) -> Option<Self> {
-        // Mostly nothing is.
+        // Mostly no step is decided.
         let first =
             self.ops.iter().position(|op| is_decidable(op) && decided(op, registers, lane).is_some())?;
         let (before, rest) = self.ops.split_at(first);
@@ -325,8 +325,8 @@ impl Tape {
                 Some(Decided::Op(op)) => op,
                 None => *op,
             };
-            // What was decided may make constants of what follows: a term of a sum that is zero
-            // here is gone.
+            // Decisions may turn later steps into constants: a term of a sum that is zero here
+            // disappears.
             match fold::simpler(kept.renamed(|id| names[id.0 as usize]), |id| ops[id.0 as usize]) {
                 fold::Simpler::Same(id) => names.push(id),
                 fold::Simpler::Op(op) => {
@@ -346,7 +346,7 @@ enum Decided {
     Op(Op),
 }
 
-/// Whether there is anything about a step that a box may decide.
+/// Whether a box may decide a step.
 fn is_decidable(op: &Op) -> bool {
     use crate::Function::{Ceil, Floor, Trunc};
     match op {
@@ -360,7 +360,7 @@ fn decided(op: &Op, registers: &[I8], lane: usize) -> Option<Decided> {
     let bit = 1_u8 << lane;
     let at = |id: NodeId| {
         let r = &registers[id.0 as usize];
-        // Where an operand may be undefined, so may the step: nothing is decided.
+        // Where an operand may be undefined, so may the step, so it is not decided.
         (r.partial & bit == 0).then(|| r.lane(lane))
     };
     let constant = |x: f64| Decided::Op(Op::Constant(Interval { lo: x, hi: x }));

@@ -56,8 +56,9 @@ impl CandidateList {
 }
 
 impl Geometry {
-    /// What the rays of a bundle may hit; `None` if that is so much that each ray should search the
-    /// tree by itself. If there is a `source`, all rays start on the same side of it.
+    /// The slots that the rays of a bundle may hit; `None` if there are so many that each ray
+    /// should search the tree by itself. If there is a `source`, all rays start on the same side of
+    /// it.
     pub fn candidates(&self, shaft: &Shaft, source: Option<Source>) -> Option<CandidateList> {
         let mut beam = CandidateList::default();
         let candidates = &mut beam.candidates;

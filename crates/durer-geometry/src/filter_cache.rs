@@ -21,7 +21,7 @@ pub(crate) struct SlotFilter {
 /// The kinds of packet filters.
 #[derive(Debug)]
 pub(crate) enum FilterKind {
-    /// A surface.
+    /// The filter of a surface.
     Outline(PacketFilter),
     /// A CSG solid.
     Body(Box<PacketCsg>),

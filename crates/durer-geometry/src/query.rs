@@ -10,9 +10,9 @@ use durer_bvh::Leaf;
 use durer_math::{Point3, Ray};
 use durer_surfaces::{LocalPoint, LocalRay, Need, SurfacePoint};
 
-/// Which surfaces of a geometry queries see: those whose mask has a common bit with the query's.
+/// A geometry restricted to the surfaces whose mask has a common bit with the query's.
 ///
-/// Made by [`Geometry::masked`]. [`Masked::batch`] asks for arrays of rays.
+/// Made by [`Geometry::masked`]. [`Masked::batch`] traces arrays of rays.
 ///
 /// ```
 /// use durer_geometry::{Geometry, ObjectId, PrimitiveId};

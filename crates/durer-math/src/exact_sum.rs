@@ -12,7 +12,7 @@ use core::cmp::Ordering;
 
 /// The greatest number of terms.
 const MOST: usize = 96;
-/// After so many passes the caller uses [`Dyadic`](crate::Dyadic), which always decides but takes
+/// After this many passes the caller uses [`Dyadic`](crate::Dyadic), which always decides but takes
 /// longer. A pass removes some 50 bits of cancellation.
 const PASSES: usize = 24;
 

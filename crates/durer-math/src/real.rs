@@ -24,7 +24,7 @@ pub trait Real:
     const ZERO: Self;
     /// The bound on the relative error of one rounding.
     const U: Self;
-    /// Pays for results below the normal range.
+    /// Covers results below the normal range.
     const TINY: Self;
     /// `self * a + b`, rounded once.
     #[must_use]
@@ -55,19 +55,19 @@ pub fn real<T: Real>(x: f32) -> T {
     T::from(x)
 }
 
-/// `count` roundings of 1.
+/// The bound on `count` roundings of a number of size 1.
 #[inline(always)]
 pub fn roundings<T: Real>(count: f32) -> T {
     T::from(count) * T::U
 }
 
-/// 1 plus `count` roundings of 1.
+/// 1 plus the bound on `count` roundings.
 #[inline(always)]
 pub fn more<T: Real>(count: f32) -> T {
     T::from(1.0) + roundings(count)
 }
 
-/// 1 minus `count` roundings of 1.
+/// 1 minus the bound on `count` roundings.
 #[inline(always)]
 pub fn less<T: Real>(count: f32) -> T {
     T::from(1.0) - roundings(count)
@@ -123,7 +123,7 @@ impl<T: Real> Eight<T> {
         wide
     }
 
-    /// Replaces each number by the greater one of it and the other.
+    /// Replaces each number by the greater one of it and the number in `others`.
     #[inline(always)]
     pub fn raise(&mut self, others: &Self) {
         for k in 0..LANES {

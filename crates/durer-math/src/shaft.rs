@@ -56,7 +56,7 @@ enum CutKind {
 /// More than the roundings of a difference, of a quotient (or of a reciprocal and a product with
 /// it) and of the term that is then added.
 const WIDEN: f64 = 8.0 * U;
-/// Pays for underflow in bounds and quotients.
+/// Covers underflow in bounds and quotients.
 const LOST: f64 = f64::MIN_POSITIVE;
 
 impl Shaft {

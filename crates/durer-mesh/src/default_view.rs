@@ -11,9 +11,9 @@ use std::sync::Arc;
 /// Half of the smaller side of the picture at distance one: the tangent of 20 degrees.
 const SLOPE: f64 = 0.364;
 
-/// The direction along which closed meshes tell inside from outside. Any direction works. This one
-/// lies along no axis and in no coordinate plane, so it rarely meets an edge of a modelled part
-/// exactly.
+/// The direction of the rays that decide between inside and outside of closed meshes. Any direction
+/// works. This one lies along no axis and in no coordinate plane, so it rarely meets an edge of a
+/// modelled part exactly.
 const INSIDE: Vec3 = Vec3::new(0.48, 0.6, 0.64);
 
 impl Model {

@@ -15,7 +15,7 @@ use crate::texture_builder::pigment;
 pub(crate) struct Lens {
     aperture: f64,
     pub(crate) focal_point: [f64; 3],
-    /// The fewest rays of a place, if the text says so, and the most.
+    /// The fewest rays of a point, if given, and the most.
     samples: (Option<u32>, u32),
     confidence: f64,
     variance: f64,

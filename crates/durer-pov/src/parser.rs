@@ -145,7 +145,7 @@ impl<'a> Parser<'a> {
         Ok(file)
     }
 
-    /// Takes `text` as the contents of the file at `path`.
+    /// Loads `text` as the contents of the file at `path`.
     pub(crate) fn load_text(&mut self, path: PathBuf, text: String) -> Result<u32> {
         let file = self.sources.len() as u32;
         let mut source = Source::new(path, text);
@@ -303,7 +303,7 @@ impl<'a> Parser<'a> {
         self.raw_ahead(0)
     }
 
-    /// As [`Parser::raw`], `ahead` tokens further.
+    /// The token `ahead` tokens after [`Parser::raw`].
     pub(crate) fn raw_ahead(&self, ahead: usize) -> Option<Kind> {
         debug_assert!(self.peeked.is_none(), "a token was looked at already");
         let frame = self.frames.last()?;
@@ -516,7 +516,7 @@ impl<'a> Parser<'a> {
             }
             _ => false,
         };
-        // A token that belongs inside blocks tells nothing: it occurs both before and after a
+        // A token that belongs inside blocks gives no hint: it occurs both before and after a
         // forgotten brace.
         let Some(&open) = self.opened.last().filter(|_| between) else { return String::new() };
         let Some(source) = self.sources.get(open.file as usize) else { return String::new() };

@@ -226,7 +226,7 @@ fn distances(b: &mut Builder, crackle: Crackle, own: [NodeId; 3]) -> Option<Node
 }
 
 /// The index into a list after frequency, phase and wave have changed `number`. The entry with this
-/// index is shown, or a mixture of the two beside it.
+/// index is shown, or a mixture of the two entries next to it.
 pub(crate) fn changed_number(pattern: &Pattern, number: usize) -> Option<f64> {
     let mut b = Builder::new();
     let value = b.constant(number as f64).ok()?;

@@ -136,11 +136,11 @@ pub fn read(path: &Path, options: &ReadOptions) -> std::result::Result<Read, Pov
     read_with(path, options, |_| {})
 }
 
-/// As [`read`]; every message is also passed to `listener` at once.
+/// [`read`], which also passes every message to `listener` at once.
 ///
 /// # Errors
 ///
-/// As [`read`].
+/// See [`read`].
 pub fn read_with(
     path: &Path,
     options: &ReadOptions,

@@ -453,7 +453,7 @@ fn flags(object: &Object) -> scene::Flags {
 /// The factor from the language's number for caustics to the exponent of the cosine.
 const CAUSTICS: f64 = 45.0;
 
-/// The interior of an object, with what the finish of its texture says of it in old scenes.
+/// The interior of an object, with the settings that the finish of its texture has in old scenes.
 fn inside(object: &Object) -> Option<scene::Interior> {
     let own = object.interior.as_deref().map(filling);
     let Some(Texture::Layers(layers)) = object.texture.as_deref() else { return own };

@@ -226,8 +226,7 @@ fn clipped(
     left
 }
 
-/// Whether part `i` of a combination keeps what is inside it of the other parts, or what is
-/// outside.
+/// Whether part `i` of a combination keeps the inside or the outside parts of the others.
 fn keeps_inside(operation: Operation, i: usize) -> bool {
     match operation {
         Operation::Merge => false,

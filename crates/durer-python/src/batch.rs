@@ -18,7 +18,8 @@ const STACK: usize = 64 << 20;
 
 type Pools = Mutex<HashMap<(u32, usize), Arc<rayon::ThreadPool>>>;
 
-/// The threads for so many at once; 0 is one for each processor. A forked process has pools of its own, since threads do not survive a fork.
+/// The pool for this many threads; 0 is one for each processor. A forked process has pools of its
+/// own, since threads do not survive a fork.
 pub(crate) fn pool(threads: usize) -> PyResult<Arc<rayon::ThreadPool>> {
     static POOLS: std::sync::OnceLock<Pools> = std::sync::OnceLock::new();
     let mut pools = POOLS.get_or_init(Pools::default).lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! Answers as columns: what was asked for is computed, the rest waits.
+//! Answers as columns, which are computed at first use.
 
 use crate::mesh::rows_of;
 use durer::geometry::{Hit, Span};

@@ -178,7 +178,7 @@ impl Scene {
         !self.data.lights.is_empty()
     }
 
-    /// The same scene, seen by another camera, with more lights.
+    /// The scene with another camera and more lights.
     fn seen_by(&self, py: Python<'_>, camera: &Camera, lights: Vec<([f64; 3], [f64; 3])>) -> PyResult<Self> {
         let mut data = self.data.clone();
         data.camera = Some(camera.data.clone());

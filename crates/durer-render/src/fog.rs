@@ -1,12 +1,12 @@
-//! Fog between the start of a ray and what it sees.
+//! Fog between the start of a ray and its hit or the background.
 //!
 //! Of the light from a distance `s`, the fraction `t = exp(-d/D)` comes through, where `D` is the
-//! fog's distance and `d` the integral of its density along the way: `s` for fog that is the same
-//! everywhere. The density of a layer on the ground depends on the height `h` alone, so that
+//! fog's distance and `d` the integral of its density along the way: `s` for uniform fog. The
+//! density of ground fog depends on the height `h` alone, so that
 //! `d = s (F(h_1) - F(h_0))/(h_1 - h_0)` for an integral `F` of the density. With turbulence it is
-//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p` half-way,
-//! whose coordinates are multiplied by the turbulence, and `k` the depth of turbulence. This was
-//! found from POV-Ray's pictures.
+//! `t = exp(-(d/D) (1 - min(1, k T(p)) exp(-s/D)))`: `T` is turbulent noise at the point `p`
+//! half-way, whose coordinates are multiplied by the turbulence, and `k` the depth of turbulence.
+//! This was found from POV-Ray's pictures.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -43,10 +43,10 @@ pub(crate) struct Veil {
     pub(crate) added: Rgb8,
 }
 
-/// The scene language sees no farther than this.
+/// The greatest distance in the scene language; what is farther counts as this far.
 const FARTHEST: f64 = 1e7;
 
-/// Below this difference of heights a ray is horizontal.
+/// A ray with a smaller difference of heights counts as horizontal.
 const LEVEL: f64 = 1e-9;
 
 impl RenderFog {
@@ -102,7 +102,7 @@ fn halfway(stir: &Stir, ways: &Ways) -> F8 {
     stir.scalar(Point3::new(x * a, y * b, z * c))
 }
 
-/// What lies between the start of a ray and what it sees.
+/// The fogs and rainbows between the start of a ray and its hit or the background.
 #[derive(Clone, Copy)]
 pub(crate) struct Air<'w> {
     pub(crate) fogs: &'w [RenderFog],
@@ -110,10 +110,10 @@ pub(crate) struct Air<'w> {
 }
 
 impl Air<'_> {
-    /// Nothing.
+    /// No fog and no rainbow.
     pub(crate) const CLEAR: Self = Self { fogs: &[], rainbows: &[] };
 
-    /// Whether nothing lies there.
+    /// Whether there is neither fog nor rainbow.
     #[inline(always)]
     pub(crate) fn is_clear(&self) -> bool {
         self.fogs.is_empty() && self.rainbows.is_empty()

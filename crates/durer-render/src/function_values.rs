@@ -7,7 +7,7 @@ use durer_scene::{LearnedNoise, SampledFunction, Settings};
 
 use crate::texture::{Grains, Sampled, building_with};
 
-/// A function that depends on textures and is asked for its values.
+/// A function that depends on textures, prepared for evaluation.
 #[derive(Clone, Debug)]
 pub struct FunctionValues(Sampled);
 

@@ -11,8 +11,8 @@ use durer_scene::Rgb;
 
 /// Computes the colours of chosen pixels; one for each thread.
 ///
-/// A pixel's colour is that of [`render`](crate::render()), bit for bit, in whatever order the
-/// pixels are asked for.
+/// A pixel's colour is that of [`render`](crate::render()), bit for bit, whatever the order of the
+/// calls.
 ///
 /// ```
 /// use durer_render::{AntiAliasing, PixelTracer, Progress, RenderSettings, World, render};

@@ -29,7 +29,7 @@ impl Rgb8 {
         Self { r: F8::splat(c.r), g: F8::splat(c.g), b: F8::splat(c.b) }
     }
 
-    /// The same number in every channel.
+    /// Eight greys: each number in every channel.
     #[inline(always)]
     pub(crate) fn grey(v: F8) -> Self {
         Self { r: v, g: v, b: v }

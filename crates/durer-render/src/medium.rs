@@ -21,8 +21,8 @@ struct Fade {
     /// `None` for exponential fading.
     power: Option<Power>,
     colour: Rgb,
-    /// Without a positive power, shadows do not fade, although what is seen through the medium does
-    /// (a fact of the scene language).
+    /// False without a positive power: then shadows do not fade, although light to the eye does (a
+    /// fact of the scene language).
     fades_shadows: bool,
 }
 
@@ -45,7 +45,7 @@ impl Medium {
         Self { ior: interior.ior, fade, caustics }
     }
 
-    /// The fraction of a light that is left after some distances in the medium, for shadows.
+    /// The transmittance of the medium over these distances, for shadow rays.
     #[inline(always)]
     pub(crate) fn shadow_after(&self, distance: F8, live: M8) -> Rgb8 {
         match &self.fade {
@@ -54,9 +54,8 @@ impl Medium {
         }
     }
 
-    /// The fraction of the light from behind that is left after some distances in the medium. With
-    /// a negative fade distance the formula is evaluated as it stands; where the power is undefined
-    /// nothing is left.
+    /// The transmittance of the medium over these distances. With a negative fade distance the
+    /// formula is evaluated unchanged; where the power is undefined the result is 0.
     #[inline(always)]
     pub(crate) fn left_after(&self, distance: F8, live: M8) -> Rgb8 {
         let Some(fade) = &self.fade else { return Rgb8::WHITE };

@@ -7,7 +7,7 @@ use durer_scene::{Colour, LearnedNoise, Pigment, Settings};
 
 use crate::texture::{Around, Grains, RenderPigment, building_with};
 
-/// A pigment that is asked for its colour at points.
+/// A pigment, prepared for evaluating its colour at points.
 ///
 /// ```
 /// use durer_math::Point3;

@@ -1,11 +1,11 @@
-//! Rainbows before what rays see.
+//! Rainbows in front of the background or a hit.
 //!
 //! With the angle `a` between the ray and the rainbow's axis, the colour is the one at
 //! `(a - angle)/width + 1/2` in its list. Of the light from a distance `s`, the fraction
 //! `t = max(exp(-s/D), 1 - k (1 - transmit))` comes through: `D` is the rainbow's distance, and `k`
-//! falls from 1 to 0 along a cubic towards the ends of the arc. The fraction `filter (1 - t)` of that
-//! light takes the colour. Where several rainbows lie over each other, the mean of what they show
-//! is seen. This was found from POV-Ray's pictures.
+//! falls from 1 to 0 along a cubic towards the ends of the arc. The fraction `filter (1 - t)` of
+//! that light takes the colour. Where several rainbows overlap, their effects are averaged. This
+//! was found from POV-Ray's pictures.
 
 use durer_math::{Vec3, elementary};
 use durer_scene::{Colour, Rainbow, Rgb};
@@ -33,7 +33,7 @@ pub(crate) fn veil(rainbows: &[Rainbow], ways: &Ways) -> Veil {
     Veil { passed, added }
 }
 
-/// What one rainbow lets pass, and what it adds; `None` beside it.
+/// The light that one rainbow transmits, and the light that it adds; `None` outside its arc.
 fn seen(rainbow: &Rainbow, direction: Vec3, distance: f64) -> Option<(Rgb, Rgb)> {
     let cosine = dot(direction, rainbow.axis).clamp(-1.0, 1.0);
     let index = (elementary::acos(cosine) - rainbow.angle) / rainbow.width + 0.5;
@@ -61,7 +61,8 @@ fn seen(rainbow: &Rainbow, direction: Vec3, distance: f64) -> Option<(Rgb, Rgb)>
     Some((Rgb::new(passed(r), passed(g), passed(b)), colour.rgb * (1.0 - t)))
 }
 
-/// The colour at a place of a list; before its first place and behind its last one those.
+/// The colour at an index of a list; before the first entry the first colour, after the last one
+/// the last.
 fn at(colours: &[(f64, Colour)], index: f64) -> Colour {
     let next = colours.partition_point(|(place, _)| *place < index);
     match (next.checked_sub(1).and_then(|i| colours.get(i)), colours.get(next)) {

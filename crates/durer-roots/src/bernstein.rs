@@ -1,4 +1,4 @@
-//! Polynomials in Bernstein form: how often the sign changes over an interval, with proof.
+//! Polynomials in Bernstein form: proven bounds on the number of sign changes over an interval.
 //!
 //! ```text
 //!   p(x) = Σ b_j C(n,j) u^j (1-u)^(n-j),    u = (x + 1) / 2,    x in [-1, 1]
@@ -12,7 +12,7 @@
 
 use durer_math::efloat::Word;
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 pub const FLOOR: f64 = durer_math::scale::pow2(-1000);
 
 /// `K[k][j]`, the factor of `u^j (1-u)^(n-j)` in `(2u - 1)^k`: whole numbers (M. Krawtchouk, 1929),
@@ -86,18 +86,18 @@ pub struct Bernstein<T, const N: usize> {
 /// The facts that the signs of Bernstein coefficients prove.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// No root, ends included: the sign is the same all over.
+    /// No root, ends included: the sign is the same everywhere.
     None,
-    /// Exactly one root, a simple one, strictly inside, where the sign turns from minus to plus.
+    /// Exactly one root, a simple one, strictly inside, where the sign changes from minus to plus.
     Rise,
-    /// The same from plus to minus.
+    /// Exactly one root, a simple one, strictly inside, where the sign changes from plus to minus.
     Fall,
-    /// Nothing yet.
+    /// The signs prove nothing.
     Open,
 }
 
 impl<T: Word, const N: usize> Bernstein<T, N> {
-    /// From `Σ c_k x^k`, where the `c_k` are wrong by `slack` in sum.
+    /// Converts `Σ c_k x^k`, where the sum of the errors of the `c_k` is at most `slack`.
     ///
     /// `|K[k][j] / C(n,j)| <= 1`, so errors of coefficients at most add up; each `b_j` takes
     /// `n + 1` products and sums and a division.
@@ -138,8 +138,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         if plus == all || minus == all {
             return Count::None;
         }
-        // All low ones of one sign, at most one open between them and the high ones of the other
-        // sign: any sign of the open one makes one change.
+        // All low coefficients have one sign and all high ones the other, with at most one open
+        // between them: for any sign of the open one there is one change.
         let turn = |low: u32, high: u32| {
             let (a, b) = (low.trailing_ones(), (!high & all).leading_zeros());
             low != 0
@@ -157,7 +157,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
         }
     }
 
-    /// The one sign that the polynomial certainly has, ends included: plus is `true`.
+    /// The sign of the polynomial (plus is `true`), if it is certainly the same on all of the
+    /// interval, ends included.
     #[inline(always)]
     pub fn one_sign(&self) -> Option<bool> {
         (self.count() == Count::None).then(|| self.b[0].to_f64() > 0.0)
@@ -196,8 +197,8 @@ impl<T: Word, const N: usize> Bernstein<T, N> {
 }
 
 impl<const N: usize> Bernstein<f64, N> {
-    /// As [`Bernstein::new`], with a rounded inverse in place of the division (one rounding more)
-    /// and fused sums.
+    /// [`Bernstein::new`] with a rounded inverse instead of the division (one more rounding) and
+    /// fused sums.
     #[inline(always)]
     pub fn quick(c: &[f64; N], slack: f64) -> Self {
         let unit = (N + 3) as f64 * f64::ADD;
@@ -212,8 +213,8 @@ impl<const N: usize> Bernstein<f64, N> {
         Self { b, e: size.mul_add(unit, slack) * (1.0 + 64.0 * f64::EPSILON) + FLOOR }
     }
 
-    /// Whether all coefficients but the first are of this sign for certain, and the first is not of
-    /// the other. If the first is of this sign too, for other reasons, there is no root.
+    /// Whether all coefficients but the first certainly have this sign, and the first does not
+    /// certainly have the other. If the first is known to have this sign, too, there is no root.
     #[inline(always)]
     pub fn stays(&self, positive: bool) -> bool {
         let sign = if positive { 1.0 } else { -1.0 };
@@ -221,7 +222,8 @@ impl<const N: usize> Bernstein<f64, N> {
         self.b[1..].iter().fold(self.b[0] * sign >= -e, |all, b| all & (b * sign > e))
     }
 
-    /// Where the control polygon crosses zero, if it does so once: a good guess at the root.
+    /// The crossing of the control polygon with zero, if there is only one: a good estimate of the
+    /// root.
     #[inline(always)]
     pub fn guess(&self) -> f64 {
         let first = self.b[0] > 0.0;

@@ -1,5 +1,5 @@
-//! The real roots of a polynomial whose coefficients are exactly known: how many there are, where,
-//! and on which side of what.
+//! The real roots of a polynomial with exactly known coefficients: their number, their isolating
+//! intervals, and signs of other polynomials at them.
 //!
 //! The last step of the ladder. Multiple roots are made simple first (`residues.rs`). Then, with
 //! `n` the degree,
@@ -8,17 +8,17 @@
 //!   (1 + x)^n p((l + r x) / (1 + x))
 //! ```
 //!
-//! has a positive root for each root of `p` between `l` and `r`, and no more of them than its
-//! coefficients change sign (R. Descartes), by an even number: no change is no root, one change is
-//! one. Where there are more the interval is divided (G. E. Collins, A. G. Akritas, "Polynomial
-//! real root isolation using Descartes' rule of signs", SYMSAC 1976): it ends, since the roots are
-//! simple. Roots that are very close to each other, or to the real line, would take a step a bit;
-//! as long as halving does not part them, Newton's method for a multiple root proposes a much
-//! shorter interval, and if that has as many changes of sign there are no roots in the rest (M.
-//! Sagraloff, K. Mehlhorn, "Computing real roots of real polynomials", *Journal of Symbolic
-//! Computation* 73, 2016).
+//! has a positive root for each root of `p` between `l` and `r`. Their number is at most the number
+//! of sign changes of the coefficients, and differs from it by an even number (R. Descartes): no
+//! change means no root, one change means one. An interval with more is divided (G. E. Collins, A.
+//! G. Akritas, "Polynomial real root isolation using Descartes' rule of signs", SYMSAC 1976): this
+//! ends, since the roots are simple. Roots that are very close to each other, or to the real line,
+//! would take one step for each bit. As long as halving does not separate them, Newton's method for
+//! a multiple root proposes a much shorter interval; if that has as many sign changes, there are no
+//! roots in the rest (M. Sagraloff, K. Mehlhorn, "Computing real roots of real polynomials",
+//! *Journal of Symbolic Computation* 73, 2016).
 //!
-//! Intervals are halved in the order of the f64 numbers, not in their values: 64 steps reach
+//! Intervals are halved by the number of f64 numbers in them, not by length: 64 steps reach
 //! neighbours at any scale.
 
 use super::residues::{Poly, common_factor};
@@ -27,15 +27,15 @@ use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::scale::ldexp;
 use durer_math::{Dyadic, Ring};
 
-/// A polynomial and what is known of its real roots.
+/// A polynomial, prepared for isolating its real roots.
 pub struct ExactRoots {
-    /// As it was given.
+    /// The polynomial as given.
     whole: Poly,
-    /// The same roots, each once.
+    /// The polynomial with the same roots, each once.
     simple: Poly,
 }
 
-/// One root by itself: the only one between `l` and `r`, which are no roots.
+/// An isolated root: the only one between `l` and `r`, which are no roots.
 #[derive(Clone, Debug)]
 pub struct Isolated {
     l: Dyadic,
@@ -44,25 +44,25 @@ pub struct Isolated {
     pub before: Ordering,
     /// The sign of the polynomial after the root.
     pub after: Ordering,
-    /// The sign, after the root, of the polynomial that has it once.
+    /// The sign, after the root, of the polynomial with simple roots.
     turn: Ordering,
 }
 
 impl Isolated {
-    /// A number behind the root, and not behind the next one; no root, as long as the interval has
-    /// not been narrowed.
+    /// A number after the root and not after the next one. It is no root as long as the interval
+    /// has not been narrowed.
     pub fn end(&self) -> &Dyadic {
         &self.r
     }
 }
 
-/// An interval to be looked at.
+/// An interval still to examine.
 struct DyadicInterval {
     l: Dyadic,
     r: Dyadic,
-    /// The changes of sign of the one that it was made from.
+    /// The sign changes of the interval that it is part of.
     before: usize,
-    /// How many bits a proposal may win.
+    /// The bits by which a proposal may shorten the interval.
     bits: u32,
 }
 
@@ -92,7 +92,7 @@ fn ratio(a: &Dyadic, b: &Dyadic) -> f64 {
     ldexp(near(a, k) / near(b, l), (k - l).clamp(-1100, 1100) as i32)
 }
 
-/// How often the sign of consecutive coefficients of `(1 + x)^n p((l + r x) / (1 + x))` changes.
+/// The number of sign changes of the coefficients of `(1 + x)^n p((l + r x) / (1 + x))`.
 fn changes(p: &Poly, l: &Dyadic, r: &Dyadic) -> usize {
     // p(l + (r - l) y), by W. G. Horner's scheme.
     let (mut c, n) = (p.clone(), p.len());
@@ -111,8 +111,8 @@ fn changes(p: &Poly, l: &Dyadic, r: &Dyadic) -> usize {
         *c = &*c * &power;
         power = &power * &width;
     }
-    // With y = x / (1 + x): the coefficients the other way round, with 1 + x in place of x. Each is
-    // known after one pass.
+    // With y = x / (1 + x): the coefficients reversed, then x replaced by 1 + x. Each pass
+    // completes one coefficient.
     c.reverse();
     let (mut last, mut found) = (Equal, 0);
     for i in 0..n {
@@ -130,8 +130,8 @@ fn changes(p: &Poly, l: &Dyadic, r: &Dyadic) -> usize {
 
 /// A power of two that no root exceeds in magnitude: twice the largest `|a_k / a_n|^(1 / (n - k))`
 /// (M. Fujiwara, "Über die obere Schranke des absoluten Betrages der Wurzeln einer algebraischen
-/// Gleichung", *Tôhoku Mathematical Journal* 10, 1916), by exponents. `None` if there are none but
-/// zero.
+/// Gleichung", *Tôhoku Mathematical Journal* 10, 1916), estimated from exponents. `None` if there
+/// is no root but zero.
 fn reach(p: &[Dyadic]) -> Option<Dyadic> {
     let (lead, rest) = p.split_last()?;
     let top = lead.exponent()?;
@@ -157,13 +157,12 @@ impl ExactRoots {
         Some(Self { whole, simple })
     }
 
-    /// The distinct roots strictly between two numbers which are no roots, ascending, each by
-    /// itself.
+    /// Isolates the distinct roots strictly between two numbers which are no roots, ascending.
     pub fn isolate(&self, from: &Dyadic, to: &Dyadic) -> Vec<Isolated> {
         let (mut out, mut open) = (vec![], vec![]);
         let far = reach(&self.simple).unwrap_or(Dyadic::from(1.0));
-        // Zero is a simple root, if it is one; the others are no nearer than the inverses of those
-        // of the polynomial the other way round are far.
+        // Zero is a simple root, if it is one. The magnitudes of the others are at least the
+        // inverse of the bound on the roots of the reversed polynomial.
         let zero = usize::from(self.simple[0].is_zero());
         let near =
             reach(&self.simple[zero..].iter().rev().cloned().collect::<Poly>()).and_then(|x| x.exponent());
@@ -200,7 +199,7 @@ impl ExactRoots {
             let part = |l, r| DyadicInterval { l, r, before: n, bits: shorter };
             let m = middle(&l, &r);
             if sign_at(&self.simple, &m).is_eq() {
-                // A root itself: alone within some distance.
+                // `m` is a root itself: the only one within some distance.
                 let (a, b) = self.about(&m, &l, &r);
                 open.push(part(b.clone(), r));
                 open.push(part(a.clone(), b));
@@ -213,12 +212,12 @@ impl ExactRoots {
         out
     }
 
-    /// An interval `2^bits` times shorter than that from `l` to `r` with as many changes of sign,
-    /// `n`: there are no roots in the rest.
+    /// An interval `2^bits` times shorter than that from `l` to `r` with as many sign changes, `n`,
+    /// so that there are no roots in the rest; `None` if the proposal fails.
     fn proposed(&self, l: &Dyadic, r: &Dyadic, n: usize, bits: u32) -> Option<(Dyadic, Dyadic)> {
         let slope = derivative(&self.simple);
         let width = r - l;
-        // Where Newton's step for a root of multiplicity n leads, from either end.
+        // The results of Newton's step for a root of multiplicity n, from either end.
         let step = |x: &Dyadic| -(n as f64) * ratio(&value(&self.simple, x), &(&value(&slope, x) * &width));
         let grid = (4_u64 << bits) as f64;
         [step(l), 1.0 + step(r)].into_iter().filter(|at| *at > 0.0 && *at < 1.0).find_map(|at| {
@@ -257,7 +256,7 @@ impl ExactRoots {
         self.beside_exact(Dyadic::from(x), away)
     }
 
-    /// The same for an exact number.
+    /// [`ExactRoots::beside`] for an exact number.
     pub fn beside_exact(&self, mut at: Dyadic, away: f64) -> Dyadic {
         let mut step = Dyadic::from(away);
         if let Some(e) = at.exponent() {
@@ -281,8 +280,8 @@ impl ExactRoots {
         }
     }
 
-    /// Narrows a root's interval until `enough` says so of its bracket in f64, or until f64 can do
-    /// no better.
+    /// Narrows a root's interval until `enough` accepts its bracket in f64, or until f64 allows no
+    /// narrower one.
     pub fn bracket(&self, root: &mut Isolated, enough: impl Fn(f64, f64) -> bool) -> (f64, f64) {
         loop {
             let (lo, hi) = (root.l.to_bounds().0, root.r.to_bounds().1);
@@ -293,7 +292,7 @@ impl ExactRoots {
         }
     }
 
-    /// Narrows a root's interval until it is no wider than `width`, and shows it.
+    /// Narrows a root's interval until it is no wider than `width`, and returns it.
     pub fn narrowed(&self, root: &mut Isolated, width: &Dyadic) -> (Dyadic, Dyadic) {
         while &root.r - &root.l > *width {
             self.halve(root);
@@ -349,8 +348,8 @@ impl ExactRoots {
     }
 }
 
-/// A number between `l` and `r`: half way in the order of the f64 numbers while they can tell the
-/// two apart, in value after that.
+/// A number between `l` and `r`: the middle in the order of f64 numbers while these separate the
+/// two, then the mean.
 fn middle(l: &Dyadic, r: &Dyadic) -> Dyadic {
     let rank = |x: f64| {
         let bits = x.to_bits() as i64;

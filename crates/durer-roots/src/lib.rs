@@ -5,7 +5,7 @@
 //! | [`quadratic`] | quadratics, with the signs of other forms at their roots |
 //! | [`polynomial`] | all roots of a polynomial on an interval, each in a bracket |
 //! | [`bernstein`] | polynomials in Bernstein form: signs, roots counted, halved |
-//! | [`exact`] | roots of polynomials with dyadic coefficients, counted and told apart exactly |
+//! | [`exact`] | roots of polynomials with dyadic coefficients, counted and separated exactly |
 //! | [`two_unknowns`] | zeros of two equations in a cell: Newton's step with Krawczyk's certificate |
 //!
 //! Functions of ray loops are generic or marked inline, so they are compiled where they are used.

@@ -1,21 +1,22 @@
 //! The real roots of a polynomial of degree up to 16 along a ray, each in a proven bracket, in
 //! ascending order.
 //!
-//! One ladder, as everywhere: in f64 with proven errors, then in double-double, then exactly. What
-//! a step has proven stands; where it is in doubt the next one goes on, from a point at which the
-//! sign is certain. On the first two steps:
+//! The solver is a ladder: f64 with proven errors, then double-double, then exact. Results of a
+//! step are final; where it is in doubt, the next step continues from a point at which the sign is
+//! certain. The first two steps:
 //!
 //! 1. The polynomial is put into Bernstein form ([`Bernstein`]) over the stretch of the line where
-//!    roots may be. All coefficients of one sign: no root. This is what mostly happens.
-//! 2. Exactly one change of sign: one simple root. Otherwise the stretch is halved, the first half
-//!    first.
+//!    roots may be. If all coefficients have one sign there is no root. This is the most frequent
+//!    case.
+//! 2. Exactly one change of sign means one simple root. Otherwise the stretch is halved, the first
+//!    half first.
 //! 3. A root is found by Newton's method and its bracket proven: by the size of the polynomial and
 //!    of its slope (Kantorovich), or by certain signs on either side.
 //!
-//! On the last step, [`ExactRoots`] counts the roots with their multiplicities.
+//! The last step, [`ExactRoots`], counts the roots with their multiplicities.
 //!
-//! A line on which the surface has no end is cut at `s = -1` and `s = 1`; what is outside is looked
-//! at as `σ = 1 / s`.
+//! For an unbounded surface the line is cut at `s = -1` and `s = 1`; the outer parts are solved in
+//! `σ = 1 / s`.
 
 use crate::bernstein::{Bernstein, Count, FLOOR};
 use crate::exact::{ExactRoots, Isolated};
@@ -34,12 +35,12 @@ pub trait Along<const N: usize> {
     fn double(&self) -> [EFloat; N];
     /// In double-double, times any positive number.
     fn wide(&self) -> Option<[EFloat<Dd>; N]>;
-    /// Exactly, times any positive number; and whether that is the line itself and not only one
-    /// near it.
+    /// Exactly, times any positive number. The flag is false if that is only a line near the given
+    /// one.
     fn exact(&self) -> (Vec<Dyadic>, bool);
 }
 
-/// Where on the line roots may be.
+/// The part of the line where roots may be.
 #[derive(Clone, Copy, Debug)]
 pub enum Stretch {
     /// Strictly within `half` of `mid`. `half` has at most 8 significant bits.
@@ -61,20 +62,20 @@ pub struct Found<'a> {
     pub lo: f64,
     /// The upper end of the bracket.
     pub hi: f64,
-    /// It is the only root between these, and the signs before and after it are those of the
-    /// polynomial from the one to it, and from it to the other.
+    /// There is no other root between these two numbers, so `before` and `after` are the signs of
+    /// the polynomial on either side of the root up to there.
     pub alone: (f64, f64),
     /// The sign before the root.
     pub before: Ordering,
     /// The sign after the root.
     pub after: Ordering,
-    /// False if the ray was not known well enough to be sure.
+    /// False if the ray's error is too large for certainty.
     pub certain: bool,
     /// How the root was found, if f64 and double-double could not.
     pub exact: Option<(&'a ExactRoots, &'a Isolated)>,
 }
 
-/// From `x` in `[-1, 1]` to the line.
+/// The map from `x` in `[-1, 1]` to the line.
 #[derive(Clone, Copy)]
 enum PartToLine {
     /// `s = mid + half x`.
@@ -92,7 +93,7 @@ impl PartToLine {
         }
     }
 
-    /// The ends of the image of `[l, r]`, ascending, within a rounding.
+    /// The ends of the image of `[l, r]`, ascending, each with one rounding.
     #[inline(always)]
     fn ends(self, l: f64, r: f64) -> (f64, f64) {
         match self {
@@ -116,7 +117,7 @@ impl PartToLine {
     }
 }
 
-/// Below this share of a stretch nothing is halved any more.
+/// The most halvings of a stretch.
 const FINEST: u32 = 40;
 
 /// A polynomial in `x` over `[-1, 1]`, with the bound of each coefficient's error.
@@ -138,7 +139,7 @@ struct BernsteinPart<T, const N: usize> {
     bits: u32,
 }
 
-/// A doubt: all up to `x` is settled.
+/// A doubt: everything up to this `x` is decided.
 struct Doubt(f64);
 
 impl<T: Word, const N: usize> Scaled<T, N> {
@@ -218,13 +219,13 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         EFloat::with_error(v, e * (1.0 + 64.0 * f64::EPSILON) + FLOOR)
     }
 
-    /// The slope at `x`, roughly.
+    /// The slope at `x`, without an error bound.
     #[inline(always)]
     fn slope(&self, x: f64) -> f64 {
         (1..N).rev().fold(0.0_f64, |sum, k| sum.mul_add(x, k as f64 * self.c[k].to_f64()))
     }
 
-    /// The value at `x`, and if it is certain whether that is behind the root.
+    /// The value at `x`, and whether `x` is behind the root, if that is certain.
     #[inline(always)]
     fn side(&self, x: f64, rising: bool) -> (f64, Option<bool>) {
         let value = self.at(x);
@@ -268,9 +269,9 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         None
     }
 
-    /// The one root between `a` and `b`, where the signs are certain, as well as it can be had:
-    /// where far origins allow wide brackets the point itself need not suffer. Newton's steps from
-    /// the middle as long as they shrink, a half where one would leave.
+    /// The root between `a` and `b`, where the signs are certain, as accurate as possible: the
+    /// point stays accurate where far origins allow wide brackets. Newton's steps from the middle
+    /// while they shrink, bisection where one would leave the interval.
     #[inline(always)]
     fn polished(&self, mut a: f64, mut b: f64, rising: bool) -> f64 {
         let (mut x, mut last) = (0.5 * (a + b), f64::INFINITY);
@@ -292,8 +293,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
         }
     }
 
-    /// Settles the stretch, first parts first: shows each part with one root to `visit`, until it
-    /// says stop or is in doubt. Parts that `skips` does not want are passed over.
+    /// Decides the stretch in ascending order: passes each part with one root to `visit`, until
+    /// that stops or is in doubt. Parts for which `skips` returns true are skipped.
     #[inline(always)]
     fn walk(
         &self,
@@ -322,8 +323,8 @@ impl<T: Word, const N: usize> Scaled<T, N> {
             if node.bits > FINEST || !node.form.tells() {
                 return Err(Doubt(node.l));
             }
-            // A split where the sign is certain; near the middle there is one, unless all is in
-            // doubt.
+            // Splits where the sign is certain. There is such a point near the middle, unless all
+            // signs are uncertain.
             let parts: &[(f64, u32)] =
                 if across_cut { &[(0.5, 1)] } else { &[(0.5, 1), (0.4375, 4), (0.5625, 4)] };
             let split = parts.iter().find_map(|&(part, bits)| {
@@ -340,10 +341,10 @@ impl<T: Word, const N: usize> Scaled<T, N> {
 }
 
 impl<const N: usize> Scaled<f64, N> {
-    /// As [`Scaled::refine`], without certain signs: with `|p(x)| <= η`, a slope of `g` at `x` that
-    /// is wrong by less than `g / 256` and `|p''| <= H` all over, `H δ <= g / 256` makes the slope
-    /// at least `g (1 - 1/64)` within `δ = 33/32 η / g` of `x`; so there is one root there, and if
-    /// all of that is between `a` and `b` it is theirs.
+    /// [`Scaled::refine`] without certain signs. Let `|p(x)| <= η`, let the slope at `x` be `g`
+    /// within `g / 256`, and let `|p''| <= H` everywhere. If `H δ <= g / 256`, the slope is at
+    /// least `g (1 - 1/64)` within `δ = 33/32 η / g` of `x`. So there is one root there, and if
+    /// that interval is between `a` and `b` it is the root sought.
     #[inline(always)]
     fn newton(&self, (a, b): (f64, f64), start: f64, widest: impl Fn(f64) -> f64) -> Option<(f64, f64, f64)> {
         let mut x = start;
@@ -389,19 +390,18 @@ pub fn stays<const N: usize>(a: &[EFloat; N], half: f64, positive: bool) -> bool
     Bernstein::quick(&scaled.c, scaled.slack()).stays(positive)
 }
 
-/// The equation that is being solved.
+/// The state of solving an equation.
 struct Work<'w, L: ?Sized, F: ?Sized, const N: usize> {
     line: &'w L,
     limits: &'w Limits,
     emit: &'w mut F,
 }
 
-/// The equation in the steps that are rare. Their code is long, so all lines of a degree share one
-/// copy of it.
+/// The state in the rare steps. Their code is long, so all lines of a degree share one copy of it.
 type RareWork<'w, const N: usize> =
     Work<'w, dyn Along<N> + 'w, dyn FnMut(&Found<'_>) -> ControlFlow<()> + 'w, N>;
 
-/// Shows every root of the line to `emit`, ascending, until it says stop. Roots outside the limits
+/// Passes every root of the line to `emit`, ascending, until that stops. Roots outside the limits
 /// may be left out.
 #[inline(always)]
 pub fn solve<const N: usize, L: Along<N>>(
@@ -427,7 +427,7 @@ pub fn solve<const N: usize, L: Along<N>>(
 }
 
 impl<L: Along<N>, F: FnMut(&Found<'_>) -> ControlFlow<()>, const N: usize> Work<'_, L, F, N> {
-    /// Within `half` of `mid`.
+    /// Solves within `half` of `mid`.
     #[inline(always)]
     fn within(&mut self, scaled: &Scaled<f64, N>, mid: f64, half: f64) {
         let place = PartToLine::Linear { mid, half };
@@ -442,7 +442,7 @@ where
     L: Along<N> + ?Sized,
     F: FnMut(&Found<'_>) -> ControlFlow<()> + ?Sized,
 {
-    /// In f64, on a stretch from its start.
+    /// Solves a stretch in f64, from its start.
     #[inline(always)]
     fn settle_double(
         &mut self,
@@ -485,7 +485,7 @@ where
 }
 
 impl<const N: usize> RareWork<'_, N> {
-    /// The step after f64, from `x` on.
+    /// Continues after f64, from `x` on.
     #[cold]
     #[inline(never)]
     fn climb(&mut self, place: PartToLine, x: f64) {
@@ -502,8 +502,8 @@ impl<const N: usize> RareWork<'_, N> {
         }
     }
 
-    /// On a stretch from `from` on; the place of a doubt is exact, as f64 could round it beyond a
-    /// root that is still to be found.
+    /// Solves a stretch from `from` on. The place of a doubt is exact, because f64 might round it
+    /// beyond a root that is not found yet.
     #[inline(always)]
     fn settle<T: Word>(
         &mut self,
@@ -536,7 +536,7 @@ impl<const N: usize> RareWork<'_, N> {
         walked.map_err(|Doubt(x)| exactly_back(from, x))
     }
 
-    /// The whole line: what is left of -1, what is between, what is right of 1.
+    /// Solves the whole line: the parts left of -1, between, and right of 1.
     #[inline(never)]
     fn everywhere(&mut self, a: &[EFloat; N]) {
         let doubt = Isa::detect().run(
@@ -548,7 +548,7 @@ impl<const N: usize> RareWork<'_, N> {
         }
     }
 
-    /// The whole line; from where on in doubt, if anywhere.
+    /// Solves the whole line; returns the place of the first doubt, if there is one.
     #[inline(always)]
     fn everywhere_but_exactly(&mut self, scaled: &Scaled<f64, N>) -> Option<Dyadic> {
         let tails = match self.tails(scaled) {
@@ -584,7 +584,7 @@ impl<const N: usize> RareWork<'_, N> {
         None
     }
 
-    /// The roots beyond -1 and 1, as inverses, ascending; `None` where there is a doubt.
+    /// The roots beyond -1 and 1, as inverses, ascending; `None` if there is a doubt.
     #[inline(always)]
     fn tails<T: Word>(&self, scaled: &Scaled<T, N>) -> Option<ArrayVec<Tail, 32>> {
         let reversed = scaled.reversed();
@@ -616,7 +616,7 @@ impl<const N: usize> RareWork<'_, N> {
         walked.is_ok().then_some(out)
     }
 
-    /// Exactly, between `from` and `to` of `y = s - mid`.
+    /// Solves exactly, between `from` and `to` of `y = s - mid`.
     #[cold]
     #[inline(never)]
     fn exactly(&mut self, mid: f64, from: Dyadic, to: f64) {
@@ -653,21 +653,21 @@ fn is_skipped(place: PartToLine, limits: &Limits, l: f64, r: f64) -> bool {
     hi.next_up() < limits.lo || lo.next_down() > limits.hi
 }
 
-/// From `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch:
+/// Converts `x` in `[-1, 1]` over the part of a stretch from `from` on to the whole stretch:
 /// `from + (1 - from)(x + 1) / 2`.
 #[inline(always)]
 fn back(from: f64, x: f64) -> f64 {
     (0.5 - 0.5 * from).mul_add(x + 1.0, from)
 }
 
-/// The same, exactly.
+/// [`back`], exactly.
 fn exactly_back(from: f64, x: f64) -> Dyadic {
     let (from, one) = (Dyadic::from(from), Dyadic::from(1.0));
     let part = &(&one - &from) * &(&Dyadic::from(x) + &one);
     &from + &part.scale2(-1)
 }
 
-/// A root in the terms of the line.
+/// Converts a root to the line's parameter.
 #[inline(always)]
 fn named<'a>(place: PartToLine, ends: (f64, f64), (x, a, b): (f64, f64, f64), rising: bool) -> Found<'a> {
     let (lo, hi) = place.ends(a, b);

@@ -210,10 +210,10 @@ fn scaled(x: EFloat, k: i32) -> EFloat {
     if k == 0 { x } else { x.scale2(k) }
 }
 
-/// The roots within the limits, or `None` if the numbers leave open what they are.
+/// The roots within the limits; `None` if rounding leaves them open.
 ///
-/// `offset` is added to each root. `disc` may be known better than the coefficients would tell; it
-/// and `b` have the exponent 0.
+/// `offset` is added to each root. `disc` may be more accurate than one computed from the
+/// coefficients; it and `b` have the exponent 0.
 #[inline(always)]
 pub fn solve(
     a: SignedEnclosure,
@@ -283,8 +283,8 @@ pub fn admit(root: EFloat, offset: f64, crossing: Crossing, limits: &Limits) -> 
     Some(root.v.is_finite().then_some(LineRoot { s: root.v, lo, hi, crossing }))
 }
 
-/// Where a number lies relative to a root of a quadratic, from the quadratic's sign (`value`) and
-/// slope there and the sign of `A`; `None` if these do not tell.
+/// The position of a number relative to a root of a quadratic, from the quadratic's sign (`value`)
+/// and slope there and the sign of `A`; `None` if these leave it open.
 #[inline(always)]
 pub fn locate(
     crossing: Crossing,
@@ -320,7 +320,8 @@ pub fn exact_sign(x: &Dyadic) -> Ordering {
 /// The exact sign of `q` at a root of `p`.
 ///
 /// With `A_p q - A_q p = 2 l₁ s + l₀`, which has the sign of `A_p q` at the root, the question
-/// becomes on which side of the root the rational number `-l₀ / 2 l₁` lies, and `p` itself tells.
+/// becomes on which side of the root the rational number `-l₀ / 2 l₁` lies, and the signs of `p`
+/// decide that.
 pub fn sign_at_root(p: &Quadratic<Dyadic>, root: Crossing, q: &Quadratic<Dyadic>) -> Ordering {
     let sign_a = exact_sign(&p.a);
     if sign_a == Equal {

@@ -1,13 +1,12 @@
-//! Greatest common divisors of polynomials with exact coefficients, by way of whole numbers modulo
-//! primes.
+//! Greatest common divisors of polynomials with exact coefficients, computed modulo primes.
 //!
 //! Modulo a prime that does not divide the leading coefficient a common divisor stays a common
 //! divisor, of the same degree. So if the greatest one modulo one such prime is a constant, it is
 //! one exactly: that proves most polynomials free of multiple roots in a few microseconds, whatever
-//! the size of their coefficients. Otherwise the divisor is put together from its remainders modulo
-//! many primes (Chinese remainder theorem) and then tried by exact division, so that nothing is
-//! left to chance (W. S. Brown, "On Euclid's algorithm and the computation of polynomial greatest
-//! common divisors", *Journal of the ACM* 18, 1971).
+//! the size of their coefficients. Otherwise the divisor is combined from its remainders modulo
+//! many primes (Chinese remainder theorem) and then verified by exact division, so the result does
+//! not depend on chance (W. S. Brown, "On Euclid's algorithm and the computation of polynomial
+//! greatest common divisors", *Journal of the ACM* 18, 1971).
 
 use durer_math::{Dyadic, Ring};
 use std::sync::{Mutex, PoisonError};
@@ -18,10 +17,10 @@ pub(super) type Poly = Vec<Dyadic>;
 /// The first prime: M. Mersenne's ninth.
 const FIRST: u64 = (1 << 61) - 1;
 
-/// Primes below the first one, found when they are first needed.
+/// The primes below the first one that have been found so far.
 static PRIMES: Mutex<Vec<u64>> = Mutex::new(Vec::new());
 
-/// The primes up to the first one, falling.
+/// The primes up to the first one, descending.
 fn primes() -> impl Iterator<Item = u64> {
     (0..).map(|i| {
         let mut known = PRIMES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -56,7 +55,8 @@ fn power(mut a: u64, mut n: u64, p: u64) -> u64 {
     out
 }
 
-/// By P. de Fermat's theorem; `p` is prime and `a` not a multiple of it.
+/// The inverse of `a` modulo `p`, by P. de Fermat's theorem; `p` is prime and `a` not a multiple of
+/// it.
 fn inverse(a: u64, p: u64) -> u64 {
     power(a, p - 2, p)
 }
@@ -108,14 +108,13 @@ fn common_modulo(mut a: Vec<u64>, mut b: Vec<u64>, prime: u64) -> Vec<u64> {
     a.into_iter().map(|x| product(x, unit, prime)).collect()
 }
 
-/// A whole number of at most 62 bits.
+/// Converts an integer of at most 62 bits.
 fn whole(x: u64) -> Dyadic {
     let (hi, lo) = ((x >> 32) as f64, (x & u64::from(u32::MAX)) as f64);
     Dyadic::from(hi).scale2(32) + Dyadic::from(lo)
 }
 
-/// `factor p / q`, if that is a polynomial whose coefficients are whole numbers times powers of
-/// two.
+/// `factor p / q`, if that is a polynomial whose coefficients are integers times powers of two.
 fn exact_quotient(p: &[Dyadic], factor: &Dyadic, q: &[Dyadic]) -> Option<Poly> {
     let (lead, rest) = q.split_last()?;
     let mut left: Poly = p.iter().map(|a| a * factor).collect();
@@ -135,11 +134,11 @@ fn exact_quotient(p: &[Dyadic], factor: &Dyadic, q: &[Dyadic]) -> Option<Poly> {
     left.iter().all(Dyadic::is_zero).then_some(quotient)
 }
 
-/// The greatest common divisor of two polynomials, times a number, and the first one divided by it,
-/// times a number; `None` if that is a constant. Neither is zero everywhere.
+/// The greatest common divisor of two polynomials, and the first one divided by it, each up to a
+/// constant factor; `None` if the divisor is a constant. Neither polynomial is zero everywhere.
 pub(super) fn common_factor(a: &[Dyadic], b: &[Dyadic]) -> Option<(Poly, Poly)> {
-    // As whole numbers: the divisor with the leading coefficient of `a` has whole coefficients (C.
-    // F. Gauss).
+    // With integer coefficients, the divisor scaled to the leading coefficient of `a` has integer
+    // coefficients (C. F. Gauss).
     let lowest = a.iter().filter_map(Dyadic::lowest_bit).min()?;
     let lead = a.last()?.clone().scale2(i32::try_from(-lowest).ok()?);
     let mut found: Poly = vec![];

@@ -14,17 +14,17 @@
 //!
 //! A function is known by its value and slopes at one point, with bounds on their errors, and by
 //! bounds on its second derivatives in a box. The change of a slope over a box of half-width `r` is
-//! then at most `(|F_uu| + |F_uv|) r`. All bounds are sums and products of numbers that are not
-//! negative, about thirty of them; [`ROUNDED`] pays for their rounding.
+//! then at most `(|F_uu| + |F_uv|) r`. Each bound is a sum of products of about thirty non-negative
+//! numbers; [`ROUNDED`] covers their rounding.
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same rows and columns")]
 
 use durer_math::U;
 
-/// Pays for the rounding of a few f64 operations on numbers that are bounds themselves.
+/// Covers the rounding of a few dozen f64 operations on bounds.
 pub const ROUNDED: f64 = 1.0 + 128.0 * U;
-/// Steps of Newton's method: from a start in its basin, six give all digits.
+/// The most steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 10;
-/// A zero is accepted where slopes change by less than this part of themselves.
+/// A zero is accepted where the relative change of slopes is less than this.
 const STEADY: f64 = 0.5;
 
 /// Both functions near a point.
@@ -52,20 +52,20 @@ pub struct Limits {
 pub enum Content {
     /// No zero.
     Nothing,
-    /// At most one zero, which then is near this place, counted from the middle.
+    /// At most one zero; if there is one it is near this place, relative to the middle.
     AtMostOne([f64; 2]),
-    /// Not known.
+    /// Unknown.
     Unknown,
 }
 
-/// One zero, and proof of it.
+/// A proven zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Zero {
     /// The zero, rounded.
     pub x: [f64; 2],
-    /// It is within this distance of `x`, in each unknown.
+    /// The exact zero is within this distance of `x`, in each unknown.
     pub radius: [f64; 2],
-    /// It is the only one within this distance of `x`.
+    /// There is no other zero within this distance of `x`.
     pub alone: f64,
     /// The sign of the determinant of the slopes there.
     pub sign: i8,
@@ -86,7 +86,7 @@ fn sized(y: &[f64; 2], e: &[f64; 2]) -> f64 {
     y[0].abs().mul_add(e[0], y[1].abs() * e[1])
 }
 
-/// Bounds on the entries of a row of `I - Y F'(m)`, added up.
+/// The sum of bounds on the entries of a row of `I - Y F'(m)`.
 #[inline(always)]
 fn residual(y: &[f64; 2], row: usize, j: &[[f64; 2]; 2], e_j: &[f64; 2]) -> f64 {
     let mut sum = 0.0;
@@ -99,7 +99,7 @@ fn residual(y: &[f64; 2], row: usize, j: &[[f64; 2]; 2], e_j: &[f64; 2]) -> f64 
 }
 
 impl Limits {
-    /// By how much a row of `Y F'` changes, per unit of the half-width of a box, added up over both
+    /// A bound on the change of a row of `Y F'` per unit of a box's half-width, summed over both
     /// unknowns.
     #[inline(always)]
     fn turning(&self, y: &[f64; 2]) -> f64 {
@@ -107,8 +107,8 @@ impl Limits {
         sized(y, &[all(&self.h[0]), all(&self.h[1])])
     }
 
-    /// What the box of half-width `half` about the point of `at` holds. A box may be counted as one
-    /// with at most one zero only if that also holds for half-width `wide`.
+    /// The content of the box of half-width `half` about the point of `at`. It is
+    /// [`Content::AtMostOne`] only if that also holds for the half-width `wide`.
     #[inline(always)]
     pub fn content(&self, at: &Local, half: f64, wide: f64) -> Content {
         let mut rest = [0.0; 2];
@@ -137,8 +137,9 @@ impl Limits {
     }
 
     /// The zero near `x`, found by Newton's method and proven; `None` if nothing can be proven.
-    /// `region` is where the limits hold, from the least to the greatest of each unknown, and
-    /// `within` where errors are known, and so where the functions may be evaluated.
+    /// `region` is the box in which the limits hold, from the least to the greatest value of each
+    /// unknown; `within` is the box in which the errors hold, so that the functions may be
+    /// evaluated.
     #[inline(always)]
     pub fn zero(
         &self,
@@ -162,8 +163,8 @@ impl Limits {
             if (0..2).all(|i| step[i].abs() <= 2.0 * noise[i] + U) {
                 return self.proven(&local, &y, (x, moved), (step, noise), region);
             }
-            // Where what a step leaves is far less than the errors, another finds nothing: the proof
-            // holds for what is left.
+            // Once the rest after a step is far below the errors, another step does not help; the
+            // proof covers the rest.
             let r = 4.0 * (step[0].abs() + noise[0]).max(step[1].abs() + noise[1]);
             if (0..2).all(|i| r * r * self.turning(&y[i]) <= 0.25 * noise[i])
                 && let Some(zero) = self.proven(&local, &y, (x, moved), (step, noise), region)
@@ -198,7 +199,7 @@ impl Limits {
                 return None;
             }
             radius[i] = r.mul_add(change, noise[i]) * ROUNDED;
-            // Also counted from the moved point.
+            // Also relative to the moved point.
             alone = alone.min((0.875 - off) / (turning + f64::MIN_POSITIVE) - 2.0 * r);
             alone = alone.min(x[i] - region[i][0] - r).min(region[i][1] - x[i] - r);
         }
@@ -208,11 +209,12 @@ impl Limits {
     }
 }
 
-/// One zero in the box of half-width `r` about a point, if that can be proven. `at` has the values at
-/// the point, off by `e` at most, and slopes that are off by `e_j` at most anywhere in the box.
+/// The zero in the box of half-width `r` about a point, if it can be proven. `at` has the values at
+/// the point, with errors of at most `e`, and slopes, with errors of at most `e_j` anywhere in the
+/// box.
 ///
-/// For functions whose slopes are bounded on boxes, as those of formulas are by intervals: nothing
-/// is asked of second derivatives.
+/// This form needs no second derivatives. It is for functions with bounds on slopes, such as
+/// interval bounds of formulas.
 #[inline(always)]
 pub fn zero_in(at: &Local, (e, e_j): (&[f64; 2], &[f64; 2]), r: f64) -> Option<Zero> {
     let y = inverse(&at.j)?;

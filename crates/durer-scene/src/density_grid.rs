@@ -1,17 +1,17 @@
 //! Numbers on a grid in the unit cube.
 //!
-//! The number with the indices `(i, j, k)` of `(a, b, c)` stands at `(i/a, j/b, k/c)`, and behind the
-//! last one comes the first again. Outside the unit cube the value is 0. These are facts of the scene
+//! On a grid of size `(a, b, c)` the number with the indices `(i, j, k)` is at `(i/a, j/b, k/c)`,
+//! and indices wrap around. Outside the unit cube the value is 0. These are facts of the scene
 //! language, found from values of `density_file` in POV-Ray 3.7.
 
 /// How values between the points of a grid are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GridBetween {
-    /// The number of the point below.
+    /// The number of the grid point below.
     Nearest,
     /// Linear along each axis.
     Linear,
-    /// Catmull and Rom's spline along each axis.
+    /// A Catmull-Rom spline along each axis.
     Cubic,
 }
 
@@ -29,8 +29,8 @@ impl core::fmt::Debug for DensityGrid {
 }
 
 impl DensityGrid {
-    /// The grid with these numbers, x running fastest; `None` if they are not as many as the size
-    /// says, or if there are none.
+    /// The grid with these numbers, with x varying fastest; `None` if their count differs from the
+    /// size, or is 0.
     pub fn new(size: [usize; 3], numbers: Vec<f32>) -> Option<Self> {
         let [a, b, c] = size;
         let count = a.checked_mul(b)?.checked_mul(c)?;

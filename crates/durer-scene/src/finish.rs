@@ -80,7 +80,7 @@ pub struct Irid {
     /// How much the thickness varies from place to place: it is multiplied by
     /// `1 + turbulence (2 T - 1)`, where `T` is five octaves of noise at the point in space.
     pub turbulence: f64,
-    /// Whether that noise is the first generator's.
+    /// Whether that noise uses the first generator.
     pub old: bool,
 }
 

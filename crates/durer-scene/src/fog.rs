@@ -20,8 +20,8 @@ pub struct Fog {
     pub turbulence_depth: f64,
 }
 
-/// Fog of which less and less is there the higher it is: `1/(1 + ((h - offset)/fade)^2)` at a height
-/// `h` above `offset`.
+/// Fog whose density decreases with the height: `1/(1 + ((h - offset)/fade)^2)` at a height `h`
+/// above `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundFog {
     /// The direction upwards, of length 1.

@@ -33,8 +33,8 @@ pub struct Light {
     pub group: Option<u32>,
 }
 
-/// Lights that light some objects only: those of the group. Other lights do not light its objects,
-/// unless it has global lights, nor do those of a group around it or within it.
+/// Lights that light only the objects of the group. Other lights do not light its objects, unless
+/// it has global lights; neither do those of groups around it or within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightGroup {
     /// Whether lights without a group light its objects too.
@@ -60,16 +60,17 @@ pub struct AreaLight {
     pub circular: bool,
     /// Whether it is turned towards each point that is lit.
     pub orient: bool,
-    /// Only `2^level + 1` points are looked at along each side where their shadows agree.
+    /// Adaptive sampling starts with `2^level + 1` points along each side, and adds points where
+    /// shadows differ.
     pub adaptive: Option<u32>,
-    /// Whether all other light comes from each of the points too, not from the location alone.
+    /// Whether the points also give the light itself, not only its shadows.
     pub illuminates: bool,
 }
 
 /// The shape of a light's beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// The same in all directions.
+    /// It is the same in all directions.
     Point,
     /// A cone towards `point_at`.
     Spot {

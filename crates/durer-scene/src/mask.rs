@@ -9,5 +9,5 @@ pub const MIRROR: u32 = 1 << 1;
 pub const SHADOW: u32 = 1 << 2;
 /// Shadow rays, for surfaces that may let light pass.
 pub const CLEAR_SHADOW: u32 = 1 << 3;
-/// Rays that ask for shapes and not for looks: every object has this bit.
+/// Rays that need shapes and not looks: every object has this bit.
 pub const SHAPE: u32 = 1 << 4;

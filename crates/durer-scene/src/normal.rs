@@ -70,7 +70,8 @@ pub struct Height {
     pub warps: Vec<PointWarp>,
     /// The heights.
     pub value: Value,
-    /// Bends the heights: at a value it says the height and its slope. If empty, the heights stay.
+    /// A map of the heights: for each value a height and a slope. If empty, the heights do not
+    /// change.
     pub slopes: Vec<(f64, [f64; 2])>,
     /// The factor of the heights.
     pub amount: f64,

@@ -17,7 +17,7 @@ pub struct Object {
     /// From the shape's own frame to the space around the object (a union's frame, or the world).
     pub placement: Placement,
     /// Convex solids (spheres, boxes, planes and others; `inverse` keeps the outside) that clip the
-    /// object: only what lies in all of them is left. They are placed in the space around the
+    /// object: only the part in all of them is kept. They are placed in the space around the
     /// object.
     pub clips: Vec<Object>,
     /// Its texture, placed in the space around the object.
@@ -35,7 +35,7 @@ pub struct Object {
     pub interior: Option<Arc<Interior>>,
     /// Its flags.
     pub flags: Flags,
-    /// Where it is written in the text, for messages.
+    /// Its place in the text, for messages.
     pub place: Option<Place>,
 }
 
@@ -52,7 +52,7 @@ pub struct Flags {
     pub hollow: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
-    /// Cylinders, cones and cut quadrics have no caps.
+    /// Solids with caps, such as cylinders, cones and prisms, have none.
     pub open: bool,
     /// Light from behind the surface counts too.
     pub double_illuminate: bool,

@@ -23,7 +23,7 @@ pub enum Pattern<T> {
         /// Positions in the map with their entries, in the order written; not empty.
         entries: Vec<(f64, T)>,
     },
-    /// The index of a picture's pixel selects the entry; after the last one comes the first.
+    /// The index of a picture's pixel selects the entry, modulo their number.
     Image {
         /// The picture.
         map: Arc<ImageMap>,
@@ -32,7 +32,7 @@ pub enum Pattern<T> {
     },
     /// Everywhere the mean of all entries, each with its weight.
     Mean(Vec<(f64, T)>),
-    /// Another pattern, seen through maps of the point, which need not be affine.
+    /// Another pattern, evaluated at a mapped point. The maps need not be affine.
     Warped {
         /// The maps, in the order in which they are applied to the point.
         warps: Vec<PointWarp>,
@@ -62,7 +62,7 @@ impl<T> Pattern<T> {
         }
     }
 
-    /// The pattern behind all warps.
+    /// The pattern without its warps.
     fn plain(&self) -> &Self {
         let mut plain = self;
         while let Self::Warped { pattern, .. } = plain {

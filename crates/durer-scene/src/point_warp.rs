@@ -35,7 +35,7 @@ pub enum PointWarp {
     },
     /// Moves points towards a centre, or away from it.
     BlackHole(BlackHole),
-    /// The plane of a flat pattern is laid around a cylinder, a sphere or a torus about the y axis.
+    /// Wraps the plane of a flat pattern around a cylinder, a sphere or a torus about the y axis.
     Wrapped(Wrap),
     /// The sides of cubes around the origin, unfolded to a cross of four by three squares that fills
     /// the unit square of the pattern's plane; `z` is the greatest of the three coordinates there.
@@ -56,9 +56,9 @@ pub struct BlackHole {
     pub centre: Point3,
     /// The radius of the region.
     pub radius: f64,
-    /// The factor of the movement.
+    /// The strength of the displacement.
     pub strength: f64,
-    /// The exponent of the decrease from the centre to the border.
+    /// The exponent with which the displacement decreases from the centre to the border.
     pub falloff: f64,
     /// Whether points move away from the centre.
     pub inverse: bool,
@@ -68,18 +68,18 @@ pub struct BlackHole {
     pub scatter: Vec3,
 }
 
-/// A flat pattern that is laid around a body.
+/// A flat pattern that is wrapped around a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrap {
-    /// The body.
+    /// The body around which it is wrapped.
     pub around: Around,
-    /// The direction of view on the flat pattern.
+    /// The direction in which the flat pattern is viewed.
     pub orientation: Vec3,
     /// The exponent of the distance by which the pattern grows with the distance from the axis.
     pub growth: f64,
 }
 
-/// A body around which a flat pattern is laid.
+/// A body around which a flat pattern is wrapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Around {
     /// A cylinder about the y axis.

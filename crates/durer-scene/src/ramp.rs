@@ -1,4 +1,4 @@
-//! The functions that continuous patterns grow with.
+//! The functions on which continuous patterns are based.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::{
     Cells, DensityGrid, GridBetween, ImageMap, ImageValue, Object, Pigment, SampledFunction, Turbulence,
 };
 
-/// The function that a continuous pattern grows with.
+/// The function on which a continuous pattern is based.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ramp {
     /// From 0 to 1 in each unit along a direction (of any length but zero), then from 0 again.
@@ -28,9 +28,9 @@ pub enum Ramp {
     Leopard,
     /// The angle around the y axis, in turns.
     Radial,
-    /// The coordinate x, stirred in its own way.
+    /// The coordinate x, with a turbulence of its own.
     Marble(Option<Turbulence>),
-    /// The distance from the z axis, stirred in its own way.
+    /// The distance from the z axis, with a turbulence of its own.
     Wood(Option<Turbulence>),
     /// A spiral around the z axis.
     Spiral {
@@ -51,7 +51,7 @@ pub enum Ramp {
     Ripples(Ripples),
     /// Distances to random points.
     Crackle(Crackle),
-    /// The fate of points of the plane `z = 0` in an iteration.
+    /// The behaviour of points of the plane `z = 0` under an iteration.
     Fractal(Fractal),
     /// The number of the kind of a cell: 0, 1, 2 ...
     Kind(Cells),
@@ -76,7 +76,7 @@ pub enum Ramp {
 }
 
 impl Ramp {
-    /// The numbers of the tilings that there are.
+    /// The numbers of the available tilings.
     pub const TILINGS: [u8; 9] = [1, 2, 3, 4, 5, 6, 7, 10, 18];
 }
 
@@ -85,7 +85,7 @@ impl Ramp {
 pub struct Grain {
     /// The kind of the pattern.
     pub kind: GrainKind,
-    /// Whether the noise is the first generator's, which is narrower.
+    /// Whether it uses the first noise generator, which has a narrower range.
     pub old: bool,
 }
 
@@ -96,11 +96,11 @@ pub enum GrainKind {
     Bozo,
     /// The cube of the noise.
     Dents,
-    /// Octaves of noise.
+    /// The sum of octaves of noise.
     Wrinkles,
-    /// Octaves of folded noise.
+    /// The sum of octaves of `|1/2 - noise|`.
     Granite,
-    /// Bands along z, stirred by this turbulence times the amount.
+    /// Bands along z, displaced by this turbulence times the amount.
     Agate(f64, Turbulence),
 }
 
@@ -126,7 +126,7 @@ pub struct Ripples {
     pub phase: f64,
 }
 
-/// A number made of the distances to the nearest of random points, one in each unit cube.
+/// A linear combination of the distances to the nearest of random points, one in each unit cube.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crackle {
     /// The factors of the distances to the nearest point, the second and the third.
@@ -135,7 +135,7 @@ pub struct Crackle {
     pub metric: f64,
     /// A distance along a fourth axis.
     pub offset: f64,
-    /// Whether all points with the same nearest point have one number.
+    /// Whether the number is constant over all points with the same nearest point.
     pub solid: bool,
     /// Whether that number has the range of the first noise generator.
     pub old: bool,

@@ -19,7 +19,7 @@ pub struct Scene {
     pub sky: Option<SkySphere>,
     /// All fog.
     pub fogs: Vec<Fog>,
-    /// All rainbows. They are seen before what lies behind, and through fog.
+    /// All rainbows. They are in front of hits and background, and seen through fog.
     pub rainbows: Vec<Rainbow>,
     /// The light groups, to which lights and objects refer by their numbers.
     pub light_groups: Vec<LightGroup>,
@@ -44,7 +44,7 @@ impl Default for Background {
 /// to length 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkySphere {
-    /// The layers, the lowest first. A layer lets pass what lies behind it as a surface's does.
+    /// The layers, the lowest first. A layer transmits light from behind like a layer of a surface.
     pub pigments: Vec<Pigment>,
     /// The factor of their colours.
     pub emission: Rgb,

@@ -1,9 +1,10 @@
 //! A tree of boxes, eight to a node, for surfaces of many pieces. A line meets the boxes in order.
 //!
-//! Boxes are enlarged by far more than the rounding of a line in units, as [`Along`] checks, so what is
-//! left out is surely not met. Nodes are divided where the areas of the parts times the numbers of
-//! their boxes have the least sum (J. Goldsmith, J. Salmon, "Automatic creation of object hierarchies
-//! for ray tracing", *IEEE Computer Graphics and Applications* 7:5 (1987) 14-20).
+//! Boxes are enlarged by far more than the rounding of a line in units, as [`Along`] checks, so the
+//! line certainly misses skipped boxes. Nodes are divided where the areas of the parts times the
+//! numbers of their boxes have the least sum (J. Goldsmith, J. Salmon, "Automatic creation of
+//! object hierarchies for ray tracing", *IEEE Computer Graphics and Applications* 7:5 (1987)
+//! 14-20).
 
 use crate::blob::{Along, MARGIN};
 use durer_math::lanes::{LANES, set_bits};
@@ -14,7 +15,7 @@ const SORTED: usize = 1 << 12;
 /// In a child: the rest is the number of a box, not of a node.
 const IS_BOX: u32 = 1 << 31;
 
-/// Up to eight boxes side by side, and what they hold.
+/// Up to eight boxes side by side, and their contents.
 #[derive(Clone, Debug, Default)]
 struct Node {
     low: [F8; 3],

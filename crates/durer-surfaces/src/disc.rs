@@ -189,7 +189,7 @@ impl RoundSheet {
         probe.sign(&Rim { normal: self.normal, radius })
     }
 
-    /// The crossing with the plane, unless it is sure to matter to nobody.
+    /// The crossing with the plane, unless it certainly does not matter.
     #[inline(always)]
     pub(crate) fn crossing(&self, probe: &Probe<'_>, range: (f64, f64)) -> Option<Crossing> {
         probe.crossing_within(self, range)
@@ -253,8 +253,8 @@ pub(crate) mod tests {
         ExactBody { faces, walls: 1, size: disc.radius(), convex: false }
     }
 
-    /// A normal, and two vectors across it of the same length and at right angles: whole numbers
-    /// all.
+    /// A normal, and two vectors of the same length, all perpendicular to each other and with
+    /// integer coordinates.
     pub(crate) const FRAMES: [[[f64; 3]; 3]; 4] = [
         [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]],

@@ -1,12 +1,11 @@
-//! On which side of an edge does a ray pass? The one rule that triangles, meshes and polygons
-//! share.
+//! The side on which a ray passes an edge: the rule that triangles, meshes and polygons share.
 //!
-//! `U = d . ((b - o) x (a - o))` tells the side; where it is exactly zero, the ray is moved
-//! symbolically (see [`durer_math::predicates`]): then it never meets an edge, two faces that share
-//! one see opposite signs, and a closed mesh is crossed an even number of times. `U` does not
-//! change when the origin moves along the ray, so the re-centred ray serves as a filter for every
-//! ray, and what it leaves open is decided on the exact ray: the given one, or the exact preimage
-//! of one under a placement.
+//! The sign of `U = d . ((b - o) x (a - o))` is the side. Where it is exactly zero, the ray is
+//! moved symbolically (see [`durer_math::predicates`]): then it never meets an edge, two faces that
+//! share one have opposite signs, and a closed mesh is crossed an even number of times. `U` does
+//! not change when the origin moves along the ray, so the re-centred ray serves as a filter for
+//! every ray, and what it leaves open is decided on the exact ray: the given one, or the exact
+//! preimage of one under a placement.
 
 use crate::RingRay;
 use crate::planar::{AlongRay, Line, TINY, cross, dot, towards};
@@ -106,7 +105,7 @@ pub(crate) fn undisplaced_side<L: Line>(line: &L, a: Point3, b: Point3) -> Optio
     )
 }
 
-/// The re-centred ray in plain f64, and what its errors can do to `U`: the filter in front of
+/// The re-centred ray in plain f64, with bounds on the error of `U`: the filter before
 /// [`exact_side`].
 pub(crate) struct EdgeFilter {
     o: Vec3,
@@ -134,11 +133,11 @@ impl EdgeFilter {
         (v - self.centre).map(|x| durer_math::eft::scale2(x, -self.scale)) - self.o
     }
 
-    /// A bound on the error of [`EdgeFilter::side`] for vertices of which all coordinates, as seen,
-    /// are at most `reach`.
+    /// A bound on the error of [`EdgeFilter::side`] for vertices whose coordinates relative to the
+    /// ray are at most `reach`.
     ///
-    /// A coordinate as seen errs by `e = o_err + u (2 reach + |o|)` at most: one rounding of the
-    /// difference, one of the subtraction of `o`, and the error of `o`. Each of the six terms
+    /// The error of such a coordinate is at most `e = o_err + u (2 reach + |o|)`: one rounding of
+    /// the difference, one of the subtraction of `o`, and the error of `o`. Each of the six terms
     /// `d_k b_i a_j` of `U` is a product of three such numbers and passes through at most four
     /// roundings.
     #[inline(always)]
@@ -146,15 +145,15 @@ impl EdgeFilter {
         self.bound_about(reach, 0.0)
     }
 
-    /// As [`EdgeFilter::bound`], for vertices that are themselves known within `vertex_err` per
-    /// axis, as seen.
+    /// [`EdgeFilter::bound`] for vertices that are themselves known within `vertex_err` per axis,
+    /// relative to the ray.
     #[inline(always)]
     pub(crate) fn bound_about(&self, reach: f64, vertex_err: f64) -> f64 {
         let e = U.mul_add(2.0 * reach + self.o.max_abs(), self.o_err + vertex_err);
         let square = reach * reach;
         let inputs = self.d_max.mul_add(e * (2.0 * reach + e), self.d_err * (reach + e) * (reach + e));
         let roundings = 4.0 * U * (1.0 + 16.0 * U) * self.d_max * square;
-        // The factor pays for the roundings of this bound, the floor for underflow.
+        // The factor covers the roundings of this bound, the floor covers underflow.
         (6.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, TINY)
     }
 
@@ -167,7 +166,7 @@ impl EdgeFilter {
         (2.0 * (inputs + roundings)).mul_add(1.0 + 64.0 * U, TINY)
     }
 
-    /// `U` for the edge between two vertices as seen.
+    /// `U` for the edge between two vertices relative to the ray.
     #[inline(always)]
     pub(crate) fn side(&self, a: Vec3, b: Vec3) -> f64 {
         let minor = |i: usize, j: usize| b[i].mul_add(a[j], -(b[j] * a[i]));

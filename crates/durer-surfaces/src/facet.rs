@@ -1,10 +1,11 @@
-//! One triangle's worth of work, shared by [`Triangle`](crate::Triangle) and [`Mesh`](crate::Mesh).
+//! The intersection of one triangle, shared by [`Triangle`](crate::Triangle) and
+//! [`Mesh`](crate::Mesh).
 //!
 //! A ray meets the triangle if it passes its three edges on the same side: `U`, `V`, `W` of
 //! `edges.rs` have one sign. Their ratios to the sum are the barycentric coordinates (R. J. Segura,
 //! F. R. Feito, "Algorithms to test ray-triangle intersection. Comparative study", WSCG 2001; A.
 //! Kensler, P. Shirley, "Optimizing ray-triangle intersection via automated search", RT 2006). The
-//! crossing's parameter comes from the plane of the three vertices, exact numbers all of them.
+//! crossing's parameter comes from the plane of the three vertices, whose numbers are exact.
 
 use crate::edges::{self, EdgeFilter};
 use crate::planar::{self, Crossing, Line, Probe, Ratios, ThreePoints, cross, dot, seen_from, towards};
@@ -22,9 +23,9 @@ pub(crate) struct Varying {
     pub(crate) uv: Option<[[f64; 2]; 3]>,
 }
 
-/// How far a component of [`unit_normal`] may be from the exact one: twice the error that is let
-/// through (the component it replaces by zero is no larger than its error), over a length of at
-/// least the largest component, and four roundings.
+/// A bound on the error of a component of [`unit_normal`]: twice the accepted error (a component
+/// replaced by zero is no larger than its error), divided by a length of at least the largest
+/// component, and four roundings.
 pub(crate) const NORMAL: f64 = 72.0 * U;
 
 /// Whether the triangle has no area, exactly.
@@ -37,8 +38,8 @@ pub(crate) fn is_degenerate(v: &Facet) -> bool {
     exact_normal(v).iter().all(Dyadic::is_zero)
 }
 
-/// Where the ray meets the triangle, and the barycentric coordinates `(b1, b2)`; nothing is said
-/// about the ray's range.
+/// The crossing of the ray with the triangle, and the barycentric coordinates `(b1, b2)`. The ray's
+/// range is not checked.
 #[inline(always)]
 pub(crate) fn hit(probe: &Probe<'_>, filter: &EdgeFilter, v: &Facet) -> Option<(Crossing, [f64; 2])> {
     hit_of(probe, v, &passes(probe, filter, v)?)
@@ -92,12 +93,13 @@ pub(crate) fn passes<L: Line>(line: &L, filter: &EdgeFilter, v: &Facet) -> Optio
 
 /// How a line meets a closed triangle.
 pub(crate) enum Contact {
-    /// Not at all.
+    /// It does not meet the triangle.
     Apart,
-    /// Within: it passes all edges on one side. So does an inexact line that leaves it open.
+    /// It meets the interior: it passes all edges on one side. An undecided inexact line counts as
+    /// this.
     Inside(Passed),
-    /// On the border, or it is in one plane with the triangle: the sides of the edges opposite to
-    /// the vertices, zero where the line meets the edge's line. The others agree.
+    /// It meets the border, or lies in the triangle's plane: the sides of the edges opposite to the
+    /// vertices, zero where the line meets the edge's line. The others agree.
     Border([i8; 3]),
 }
 
@@ -154,7 +156,7 @@ fn volumes_within(filter: &EdgeFilter, v: &Facet) -> ([f64; 3], f64) {
     ([filter.side(b, c), filter.side(c, a), filter.side(a, b)], bound)
 }
 
-/// The one sign of all three, exactly, where the filter left some open.
+/// The common sign of all three, exactly, where the filter left some open.
 #[cold]
 #[inline(never)]
 fn common_side<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Option<i8> {
@@ -170,7 +172,7 @@ fn common_side<L: Line>(line: &L, v: &Facet, values: [f64; 3], bound: f64) -> Op
                 } else {
                     edges::exact_side(line, v[(i + 1) % 3], v[(i + 2) % 3])
                 };
-                // A side that is not known (inexact lines only) agrees with all.
+                // An unknown side (of inexact lines only) agrees with all.
                 let Some(side) = side else { continue };
                 if side == 0 || side == -common {
                     return None;
@@ -188,8 +190,8 @@ pub(crate) fn holds_in_plane(v: &Facet, p: Point3) -> bool {
     dot(&exact_normal(v), &q).is_zero()
 }
 
-/// Whether the start of a line, known to lie in the triangle's plane, lies in the closed triangle.
-/// An inexact one does.
+/// Whether the start of a line, which lies in the triangle's plane, lies in the closed triangle.
+/// True for an undecided inexact line.
 #[inline(always)]
 pub(crate) fn holds_start<L: Line>(line: &L, v: &Facet) -> bool {
     let Some(start) = line.exact() else { return true };
@@ -213,8 +215,7 @@ fn volume<T: Ring>(ray: &RingRay<T>, p: &[T; 3], q: &[T; 3]) -> T {
     dot(&ray.d, &cross(q, p))
 }
 
-/// `(V, W, U + V + W)`: the second and third barycentric coordinates and what they are to be
-/// divided by.
+/// `(V, W, U + V + W)`: the second and third barycentric coordinates and their divisor.
 #[inline(always)]
 fn volumes<T: Ring>(v: &Facet, ray: &RingRay<T>, centre: Point3, scale: i32) -> [T; 3] {
     let [a, b, c] = *v;
@@ -230,14 +231,15 @@ fn barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
     barycentric_within(probe, v, planar::TIGHT).unwrap_or_else(|| exact_barycentric(probe, v))
 }
 
-/// The same in f64, if no error is above `tight`.
+/// [`barycentric`] in f64, if no error is above `tight`.
 #[inline(always)]
 fn barycentric_within(probe: &Probe<'_>, v: &Facet, tight: f64) -> Option<[EFloat; 2]> {
     let (values, bound) = volumes_within(&EdgeFilter::new(probe), v);
     quotients_within(values, bound, tight)
 }
 
-/// `V` and `W` over `U + V + W`, where that is tight; each volume errs by at most `bound`.
+/// `V` and `W` divided by `U + V + W`, if the errors are small enough; the error of each volume is
+/// at most `bound`.
 #[inline(always)]
 pub(crate) fn quotients(values: [f64; 3], bound: f64) -> Option<[EFloat; 2]> {
     quotients_within(values, bound, planar::TIGHT)
@@ -278,8 +280,8 @@ fn exact_barycentric(probe: &Probe<'_>, v: &Facet) -> [EFloat; 2] {
     )
 }
 
-/// The normal times a power of two that makes it of about unit size, if it can, and a bound on its
-/// error per component.
+/// The normal times a power of two that brings it to about unit size, if possible, and a bound on
+/// its error per component.
 #[inline(always)]
 fn normal_and_error(v: &Facet) -> (Vec3, Vec3) {
     let (e1, e2) = (v[1] - v[0], v[2] - v[0]);
@@ -303,8 +305,8 @@ fn exact_normal(v: &Facet) -> [Dyadic; 3] {
 pub(crate) fn unit_normal(v: &Facet) -> Normal3 {
     let (n, err) = normal_and_error(v);
     let size = n.max_abs();
-    // Slivers lose digits to cancellation; they, and the ends of the range of f64, are found
-    // exactly.
+    // Slivers lose digits to cancellation; they, and numbers near the ends of the range of f64, are
+    // computed exactly.
     if size > 1e-280 && size < 1e280 && err.max_abs() <= 32.0 * U * size {
         let n = Vec3::from(core::array::from_fn(|i| if n[i].abs() > err[i] { n[i] } else { 0.0 }));
         return planar::unit(n.scale2(-durer_math::scale::exponent(size)));
@@ -324,9 +326,9 @@ pub(crate) fn resolve(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Nee
     resolve_from(barycentric(probe, v), v, varying, need)
 }
 
-/// [`resolve`] for a triangle that is small beside its distance from the origin: coordinates in it
-/// are refined only if their error moves the point by more than a few hundred roundings of its
-/// position.
+/// [`resolve`] for a triangle that is small relative to its distance from the origin: its
+/// barycentric coordinates are refined only if their error moves the point by more than a few
+/// hundred roundings of its position.
 #[inline(always)]
 pub(crate) fn resolve_far(probe: &Probe<'_>, v: &Facet, varying: &Varying, need: Need) -> SurfacePoint {
     let edge = (v[1] - v[0]).max_abs().max((v[2] - v[0]).max_abs());

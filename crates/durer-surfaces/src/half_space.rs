@@ -1,4 +1,4 @@
-//! Half-spaces with uncertain planes, and a box around what several of them have in common.
+//! Half-spaces with uncertain planes, and boxes around intersections of several.
 
 use durer_math::{Aabb, Affine, Interval, Point3, Vec3};
 
@@ -18,8 +18,8 @@ struct Support {
 }
 
 impl HalfSpace {
-    /// [`HalfSpace::common_bounds`] uses at most so many half-spaces: its time grows with the cube
-    /// of their number.
+    /// The most half-spaces that [`HalfSpace::common_bounds`] uses: its time grows with the cube of
+    /// their number.
     const MOST: usize = 32;
 
     /// The half-space `n . p <= h` of a normal and a distance that are known within intervals.
@@ -53,7 +53,7 @@ impl HalfSpace {
         Self { normal: self.normal.map(|x| -x), distance: -self.distance }
     }
 
-    /// The half-space as `map` places it: with `p' = c + L p` and the adjugate `A = det(L) L^-1`,
+    /// The half-space placed by `map`: with `p' = c + L p` and the adjugate `A = det(L) L^-1`,
     /// `n . p <= h` is `(A^T n) . p' <= det(L) h + (A^T n) . c` where `det(L) > 0`.
     #[must_use]
     pub fn through(&self, map: &Affine) -> Self {
@@ -68,8 +68,7 @@ impl HalfSpace {
         Self { normal, distance: turned(determinant) * self.distance + shift }
     }
 
-    /// A box that holds every point that all half-spaces have in common; unbounded if none is
-    /// found.
+    /// A box that holds the intersection of all half-spaces; unbounded if no bound is found.
     ///
     /// By the duality of linear programming the greatest `d . p` is the least `sum y_i h_i` over
     /// all `y >= 0` with `sum y_i n_i = d`, where at most three `y_i` are not zero (A. Schrijver,

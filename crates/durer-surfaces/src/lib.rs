@@ -1,4 +1,4 @@
-//! Exact surfaces. Each answers one question: *where does this ray meet you?*
+//! Exact surfaces. Each answers one question: *where does this ray meet the surface?*
 //!
 //! A surface implements [`Surface`]. [`Surface::roots`] pushes every crossing of a ray, in order,
 //! as a bracket that provably holds it; [`Surface::resolve`] gives the point, its normals and error

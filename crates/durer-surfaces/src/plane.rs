@@ -150,7 +150,7 @@ fn rational_length(n: Vec3) -> Option<f64> {
     (Ring::square(Dyadic::exact(length)) == square).then_some(length)
 }
 
-/// A number as a double-double, with a bound on what was lost.
+/// Rounds a number to double-double, with a bound on the error.
 fn rounded(x: &Dyadic) -> EFloat<Dd> {
     let hi = x.to_f64();
     let rest = x - &Dyadic::exact(hi);

@@ -159,8 +159,8 @@ impl Polygon {
         facet::plane(probe, &self.plane)
     }
 
-    /// Whether a line passes through the outlines. The line's view must contain the polygon within
-    /// one unit of its centre.
+    /// Whether a line passes through the polygon, by its outlines' winding numbers. In the line's
+    /// frame the polygon must be within one unit of the centre.
     #[inline(always)]
     pub(crate) fn holds<L: Line>(&self, line: &L) -> bool {
         let winding = Winding::new(line);

@@ -15,7 +15,7 @@ pub trait Sink {
         f64::INFINITY
     }
 
-    /// Takes a root, and says whether more are wanted.
+    /// Takes a root. Returns `Break` if no more are wanted.
     fn push(&mut self, root: Root) -> ControlFlow<()>;
 }
 

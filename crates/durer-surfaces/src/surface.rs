@@ -3,11 +3,11 @@
 use crate::{LocalPoint, LocalRay, Root, Sink, SurfacePoint};
 use durer_math::Aabb;
 
-/// A surface in its own frame. It answers one question: *where does this ray meet you?*
+/// A surface in its own frame. It answers one question: *where does this ray meet the surface?*
 ///
 /// The closest hit, any hit, all hits and spans are [`Sink`]s over the one method
-/// [`roots`](Surface::roots), so they cannot disagree. What makes a surface faster in a tree, and
-/// is not needed for its answers, is in [`Accelerate`](crate::Accelerate).
+/// [`roots`](Surface::roots), so they cannot disagree. [`Accelerate`](crate::Accelerate) has the
+/// methods that only make a surface faster in a tree.
 pub trait Surface: Send + Sync {
     /// A box that provably holds the surface and, for a solid, its inside; [`Aabb::UNBOUNDED`] if
     /// none does.

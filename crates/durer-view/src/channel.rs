@@ -23,12 +23,12 @@ pub(crate) enum Channel {
     Bound,
     /// The steps that the search for the first hit takes.
     Steps,
-    /// How many separate stretches of the ray lie inside solids.
+    /// The number of separate intervals of the ray inside solids.
     Inside,
 }
 
 impl Channel {
-    /// All, with their names in addresses.
+    /// All channels, with their names in URLs.
     pub(crate) const ALL: [(Self, &str); 8] = [
         (Self::Picture, "picture"),
         (Self::Depth, "depth"),
@@ -48,7 +48,7 @@ impl Channel {
         Self::ALL.iter().find(|(c, _)| *c == self).map_or("picture", |(_, name)| name)
     }
 
-    /// Measures a ray. Not for pictures.
+    /// Measures a ray. Not for [`Channel::Picture`].
     pub(crate) fn measure(self, geometry: &Geometry, ray: &Ray) -> Measure {
         match self {
             Self::Steps => {
@@ -89,7 +89,7 @@ pub(crate) enum Measure {
     Nothing,
     /// A number, to be shown on a scale.
     Number(f64),
-    /// Values that have a colour of their own.
+    /// Values, and the colour that shows them.
     Values([f64; 3], [u8; 3]),
 }
 
@@ -104,8 +104,8 @@ impl Measure {
     }
 }
 
-/// A number on the scale of its channel: bounds by their powers of ten. An exact hit has no length,
-/// and counts as a very small one.
+/// A number on the scale of its channel: logarithmic for bounds. An exact hit has a bracket of
+/// length 0, which counts as a very small one.
 fn on_scale(channel: Channel, x: f64) -> f64 {
     if channel == Channel::Bound { elementary::log10(x.max(1e-20)) } else { x }
 }
@@ -119,7 +119,7 @@ pub(crate) struct Scale {
 
 impl Scale {
     /// A scale for some measurements, without the most extreme hundredth at either end; `None` if
-    /// they are no numbers.
+    /// there are no numbers among them.
     pub(crate) fn of(channel: Channel, measures: &[Measure]) -> Option<Self> {
         let number = |m: &Measure| match m {
             Measure::Number(x) => Some(on_scale(channel, *x)).filter(|x| x.is_finite()),

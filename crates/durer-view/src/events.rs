@@ -27,7 +27,7 @@ impl Pulse {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     }
 
-    /// The time since the last message was asked for; `None` if the connection is no stream.
+    /// The time since the connection requested the last message; `None` if it is no stream.
     pub(crate) fn age(&self) -> Option<std::time::Duration> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).map(|at| at.elapsed())
     }

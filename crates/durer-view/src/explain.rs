@@ -15,10 +15,10 @@ use std::time::Duration;
 
 /// The most crossings that are listed.
 const MOST_CROSSINGS: usize = 2000;
-/// The most bytes of `explain`'s words.
+/// The maximum size of the explanation's text, in bytes.
 const MOST_WORDS: usize = 200_000;
 
-/// How often a ray is tried that a change of the picture has cut short.
+/// The most attempts for a ray, each cut short by a change of the picture.
 const TRIALS: u32 = 20;
 
 /// Everything about the ray through the middle of a pixel.
@@ -32,7 +32,7 @@ pub(crate) fn pixel(session: &Session, pixel: (u32, u32)) -> Result<Value, Strin
     Err("the picture changes all the time".to_owned())
 }
 
-/// As [`pixel`]; `None` if the picture changed meanwhile.
+/// One attempt of [`pixel`]; `None` if the picture changed meanwhile.
 fn attempt(session: &Session, pixel: (u32, u32)) -> Result<Option<Value>, String> {
     let stage = &*session.stage();
     let ray = session.ray(&stage.world, pixel).ok_or("the scene has no camera")?;
@@ -112,7 +112,7 @@ fn crossing(
     names: &HashMap<(u32, u32), &'static str>,
     place: Option<Place>,
 ) -> Value {
-    // The parts of a compound solid are known by their words in the text.
+    // The parts of a compound solid are named by their keywords in the text.
     let name = names.get(&(hit.object.0, hit.primitive.0)).filter(|name| **name != "Compound");
     let name = name.map(|name| (*name).to_owned()).or_else(|| source::word(stage, place));
     let kind = match hit.kind {
@@ -142,7 +142,7 @@ fn rays(stage: &Stage, lowered: &Lowered, tree: &RayTree, encoding: Encoding) ->
             RayKind::TotallyReflected => "totally reflected",
             RayKind::Reflected => "reflected",
         };
-        // What is left of the surface's light without that of the lights, up to rounding.
+        // The surface's light without the part that comes from lights, up to rounding.
         let scattered = ray.shadows.iter().fold(Rgb::BLACK, |sum, s| sum + s.arrived);
         let own = (ray.light + scattered * -1.0).map(|x| if x.abs() < 1e-14 { 0.0 } else { x });
         let shadows = ray.shadows.iter().map(|s| {
@@ -171,7 +171,7 @@ fn rays(stage: &Stage, lowered: &Lowered, tree: &RayTree, encoding: Encoding) ->
     })
 }
 
-/// A colour in the scene's numbers, and as a screen shows it.
+/// A colour in the scene's values, and as displayed.
 fn colour(rgb: Rgb, encoding: Encoding) -> Value {
     let channels = [rgb.r, rgb.g, rgb.b];
     let [r, g, b] = channels.map(|v| (encoding.file(v) * 255.0 + 0.5) as u8);

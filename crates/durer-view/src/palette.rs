@@ -31,7 +31,7 @@ pub(crate) fn grey(x: f64) -> [u8; 3] {
     [(245.0 - 205.0 * x + 0.5) as u8; 3]
 }
 
-/// A colour for a whole number; neighbours differ clearly.
+/// A colour for an integer; neighbours differ clearly.
 pub(crate) fn distinct(n: u32) -> [u8; 3] {
     // Steps by the golden angle spread the hues evenly, however many there are.
     let hue = (f64::from(n) * 0.618_033_988_749_895) % 1.0 * 6.0;

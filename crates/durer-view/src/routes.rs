@@ -133,7 +133,8 @@ async fn route(server: &Arc<Server>, pulse: &Arc<Pulse>, path: &str, request: Re
     }
 }
 
-/// Changes what is painted, and answers with the generation that shows the change.
+/// Changes the painted picture, and answers with the number of the generation that shows the
+/// change.
 async fn change(server: &Arc<Server>, path: &str, value: Value) -> Answer {
     let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
     let generation = match path {

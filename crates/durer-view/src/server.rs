@@ -92,7 +92,7 @@ async fn beat(server: Arc<Server>) {
     }
 }
 
-/// Answers one request; what goes wrong concerns nobody but its sender.
+/// Answers one request; errors concern only its sender.
 async fn connection(server: &Arc<Server>, stream: TcpStream) {
     let _ = stream.set_nodelay(true);
     let pulse = Arc::new(Pulse::default());

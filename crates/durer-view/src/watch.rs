@@ -45,7 +45,7 @@ impl Watched {
         self.files.iter().map(|(path, _)| path.clone())
     }
 
-    /// Whether a file differs from what it was; notes what it is now.
+    /// Whether a file has changed since the last call; records its present state.
     fn has_changed(&mut self) -> bool {
         let mut changed = false;
         for (path, known) in &mut self.files {

@@ -35,8 +35,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A hit says where on the ray. Its point says the rest, and rays that go on from it start on a
-//! proven side of the surface:
+//! A hit gives the parameter on the ray. Its point gives the rest, and rays spawned from it start
+//! on a proven side of the surface:
 //!
 //! ```
 //! # use durer::surfaces::Sphere;
@@ -51,8 +51,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Any surface can be placed by a map. Masks say which rays see it, and many rays are asked at
-//! once, on all processors:
+//! Any surface can be placed by a map. Masks select the rays that can hit it, and a batch traces
+//! many rays at once, on all processors:
 //!
 //! ```
 //! use durer::geometry::{ObjectId, PrimitiveId};

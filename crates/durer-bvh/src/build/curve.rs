@@ -15,7 +15,7 @@ use durer_math::Isa;
 use durer_math::kernels::in_large_pages;
 use rayon::prelude::*;
 
-/// Groups are chosen among so many entries at once.
+/// The number of successive entries among which groups are chosen at a time.
 const RUN: usize = 2048;
 
 /// Bits of a code along each axis.

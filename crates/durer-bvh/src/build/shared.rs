@@ -56,8 +56,8 @@ impl Arranged {
         Self { order: slots.order, leaves, listed: None }
     }
 
-    /// For leaves that refer to positions of references: a triangle may be in several, or several
-    /// times in one, and there is room between them.
+    /// For leaves that refer to positions of references. A triangle may be in several leaves, or
+    /// several times in one, and positions between leaves may be unused.
     pub(super) fn sharing(nodes: &[Node], entries: &[Entry], kinds: usize) -> Self {
         let mut leaves = Vec::new();
         // For each kind and index the number of leaves that hold it.

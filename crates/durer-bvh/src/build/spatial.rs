@@ -17,14 +17,14 @@
 //!     y = a_y + s (b_y - a_y),   s = (p - a_x) / (b_x - a_x) in [0, 1].
 //! ```
 //!
-//! Both differences and the quotient are rounded, so `s` errs by `3 u` of itself; with the third
-//! difference and the product that is `5 u` of at most 2; and the sum is at most `1 + 10 u` and
-//! rounded once: `12 u` in all, with terms of second order. Underflow needs no charge: differences
-//! of f64 do not underflow, and a quotient or a product that does loses less than `2^-1074`. A
-//! part's box contains the corners on its side and these points, and is grown by [`SLACK`], `32 u`;
-//! so at least `20 u` are left, more than the error of [`Bounds`] for any other planes: this is why
-//! [`is_covered`] can look for gaps. The box is also inside the box of the part that was cut, and
-//! on its side of the plane, both of which hold the new part.
+//! Both differences and the quotient are rounded, so the relative error of `s` is `3 u`; with the
+//! third difference and the product that is `5 u` of at most 2; and the sum is at most `1 + 10 u`
+//! and rounded once: `12 u` in all, with terms of second order. Underflow needs no charge:
+//! differences of f64 do not underflow, and a quotient or a product that does loses less than
+//! `2^-1074`. A part's box contains the corners on its side and these points, and is grown by
+//! [`SLACK`], `32 u`; so at least `20 u` are left, more than the error of [`Bounds`] for any other
+//! planes: this is why [`is_covered`] can look for gaps. The box is also inside the box of the part
+//! that was cut, and on its side of the plane, both of which hold the new part.
 //!
 //! Corners are scaled to the tree's units. A triangle for which that is inexact is never cut.
 
@@ -48,7 +48,7 @@ const OVERLAP: f32 = 0.3;
 /// A range of fewer entries gets no spatial split: it is a few blocks.
 const LEAST: usize = 64;
 
-/// There may be one more reference for so many entries.
+/// The number of entries for which one more reference is allowed.
 pub(super) const BUDGET: usize = 4;
 
 /// A triangle in the tree's units.
@@ -301,7 +301,7 @@ impl Grid {
     }
 }
 
-/// A plane, and what is on both sides of it.
+/// A plane, and the extent and number of references on both sides of it.
 struct Cut {
     axis: usize,
     at: f32,

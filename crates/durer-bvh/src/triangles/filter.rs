@@ -80,7 +80,7 @@ const U: f32 = 1.0 / (1 << 24) as f32;
 /// The largest error of a ray, in tree units and relative to its direction, with which f32 is of
 /// use.
 pub(crate) const ROUGH: f32 = 1.0 / (1 << 10) as f32;
-/// Pays for second-order terms, and for the roundings of bounds and of their constituents.
+/// Covers second-order terms, and the roundings of bounds and of their constituents.
 const PAYS: f32 = 1.0 + 1.0 / 64.0;
 /// Parts of the bound of `t` that all rays share: see [`Filter::s`].
 pub(crate) const NEAR: f32 = 32.0 * U * PAYS;

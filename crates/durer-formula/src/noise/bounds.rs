@@ -45,7 +45,7 @@ use durer_math::{F8, Isa, M8};
 /// bounds' own rounding.
 const VALUE_MARGIN: f32 = 2.0 * VALUE_ROUNDINGS + 16.0;
 const SLOPE_MARGIN: f32 = 2.0 * SLOPE_ROUNDINGS + 16.0;
-/// Pays for the roundings of sums of non-negative numbers: at most twelve in succession.
+/// Covers the roundings of sums of non-negative numbers: at most twelve in succession.
 const UP: f32 = 16.0;
 /// The largest value of a lattice point.
 pub(super) const CORNER: f64 = 33.0 / 64.0;
@@ -269,9 +269,9 @@ impl Ends {
     }
 }
 
-/// A part along an axis, with bounds on the blend and its derivative.
+/// A part of a cell along an axis, with bounds on the blend function and its derivative.
 struct Within {
-    /// Half of its length.
+    /// Half of the part's length.
     half: Eight<f32>,
     f: Ends,
     slope: Ends,

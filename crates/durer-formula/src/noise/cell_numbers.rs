@@ -4,10 +4,10 @@
 //!   u_k(cube) = m[h + k] / 2^32,   h = p[p[p[x] ^ y] ^ z]
 //! ```
 //!
-//! `p` is the permutation of 0 to 4095 that the scene language's noise has too, and `m` the outputs of
-//! M. Matsumoto and T. Nishimura's generator, "Mersenne Twister", *ACM Transactions on Modeling and
-//! Computer Simulation* 8 (1998) 3-30, from its standard seed 5489. Found from values of the patterns
-//! in POV-Ray 3.7: at 3 000 points all are the same to nine digits.
+//! `p` is the permutation of 0 to 4095 that the scene language's noise uses, too; `m` are the
+//! outputs of M. Matsumoto and T. Nishimura's generator, "Mersenne Twister", *ACM Transactions on
+//! Modeling and Computer Simulation* 8 (1998) 3-30, from its standard seed 5489. Found from values
+//! of the patterns in POV-Ray 3.7: at 3 000 points all are the same to nine digits.
 
 use std::sync::OnceLock;
 

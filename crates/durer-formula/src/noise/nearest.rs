@@ -35,8 +35,8 @@ const WIDEST: f64 = 2.0;
 /// From here on unit cubes have no exact place.
 const FARTHEST: f64 = (1_u64 << 50) as f64;
 
-/// Cubes that matter are at most so many steps from the middle one: no distance without the offset is
-/// above 3.5 (see [`Nearest::everywhere`]), and half of the widest box is 1.
+/// The largest distance, in steps, of a relevant cube from the middle one: no distance without the
+/// offset is above 3.5 (see [`Nearest::everywhere`]), and half of the widest box is 1.
 const SHELLS: usize = 5;
 
 /// The slopes of as many random points are compared, which small boxes never reach. Of more nothing is
@@ -230,12 +230,12 @@ impl Nearest {
         }
     }
 
-    /// The distance from a point, within its bounds.
+    /// The distance from a point: the middle of its bounds.
     pub fn value(self, p: [f64; 3]) -> f64 {
         if p.iter().any(|x| x.is_nan()) { f64::NAN } else { self.bounds(p.map(Interval::from)).mid() }
     }
 
-    /// The distances from eight points.
+    /// [`Nearest::value`] for eight points.
     pub(crate) fn values(self, [x, y, z]: [&F8; 3]) -> F8 {
         F8(core::array::from_fn(|i| self.value([x.0[i], y.0[i], z.0[i]])))
     }

@@ -1,6 +1,6 @@
 //! The permutation of the scene language's noise, which gives each cube of the unit lattice a number.
 
-/// Cubes repeat after so many along each axis.
+/// The period of the cubes along each axis.
 pub const PERIOD: usize = 4096;
 
 /// The number of a cube, from 0 to 4095, by its coordinates modulo [`PERIOD`].

@@ -13,8 +13,8 @@ const FIRST: u32 = 10_000;
 const POINTS: usize = 256;
 
 /// The values and slopes of the points of a lattice, and the permutation `p` that distributes them:
-/// the point `(x, y, z)` has number `p[p[p[x] ^ y] ^ z]` modulo 256, with coordinates counted from
-/// -10000 modulo 4096.
+/// the point `(x, y, z)` has number `p[p[p[x] ^ y] ^ z]` modulo 256, with coordinates relative to
+/// -10000, modulo 4096.
 ///
 /// Tables are shared and live as long as the program: steps of formulas refer to them.
 pub struct NoiseTable {
@@ -22,8 +22,8 @@ pub struct NoiseTable {
     points: Box<[[f64; 4]; POINTS]>,
     /// The permutation, twice.
     order: Box<[u16; 2 * PERIOD]>,
-    /// The greatest of the slopes and of twice the values, and at least 2^-20: so much that what is too
-    /// small for single precision is within the bounds of rounding.
+    /// The greatest of the slopes and of twice the values, and at least 2^-20, so that the bounds
+    /// of rounding cover values too small for single precision.
     size: f64,
 }
 

@@ -1,7 +1,7 @@
 //! The CSG solids of a geometry: one slot in the tree each.
 //!
-//! Rays hit the surfaces of leaves. So hits and sources name those, by slots that are counted over
-//! all leaves of all solids, with two flags above the number.
+//! Rays hit the surfaces of leaves. So hits and sources refer to those, by slots numbered over all
+//! leaves of all solids, with two flags above the number.
 
 use super::compound::Compound;
 use super::packet::PacketCsg;

@@ -31,8 +31,8 @@ use durer_surfaces::{Accelerate, LocalPoint, PartId, Side, Solidity};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Compound {
-    /// The leaves. Their objects are their numbers, their primitives are those given by the caller.
-    /// Each has the box in which it matters.
+    /// The leaves. Their object numbers are the leaves' numbers, their primitive numbers come from
+    /// the caller. Each has the box in which it matters.
     pub(super) leaves: Geometry,
     pub(super) tree: Tree,
     /// The traits of each leaf.
@@ -62,7 +62,7 @@ pub(super) struct Traits {
     pub(super) is_endless: bool,
 }
 
-/// Which faces of a leaf are visible. An invisible face bounds the solid all the same.
+/// The visible faces of a leaf. An invisible face bounds the solid, too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
     /// All of them.
@@ -70,7 +70,7 @@ pub enum Shown {
     All,
     /// The first one only: the wall of a cylinder without caps.
     Wall,
-    /// None: the leaf cuts, and the openings stay open.
+    /// None: the leaf only cuts, and leaves openings.
     None,
 }
 
@@ -230,7 +230,7 @@ impl CompoundBuilder {
 }
 
 impl Compound {
-    /// With so many leaves or more, rays search them piece by piece.
+    /// With this many leaves or more, rays search them piece by piece.
     const MANY: usize = 64;
 
     /// Starts a new CSG solid.
@@ -249,7 +249,7 @@ impl Compound {
         if self.is_sheet { Solidity::Open } else { Solidity::Solid }
     }
 
-    /// A box around the solid; unbounded if there is none.
+    /// A box around the solid; unbounded if there is no bounded one.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }

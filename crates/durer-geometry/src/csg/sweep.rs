@@ -54,7 +54,7 @@ pub(super) struct Scratch {
     events: Vec<Event>,
     /// How many of the events the sweep has passed.
     done: usize,
-    /// How many of the events have been part of a sweep.
+    /// How many of the events a sweep has included.
     looked_at: usize,
     leaves: Vec<Tally>,
     /// Leaves in which the ray starts.
@@ -103,7 +103,7 @@ impl Scratch {
         self.leaves[leaf as usize].query == self.query
     }
 
-    /// Adds a crossing ahead of the ray's start. Those of a surface come in their order.
+    /// Adds a crossing ahead of the ray's start. Crossings of one surface come in order.
     pub(super) fn push(&mut self, leaf: u32, sense: Sense, (arena, slot): (u32, u32), root: Root) {
         let tally = &mut self.leaves[leaf as usize];
         if tally.query != self.query {
@@ -122,7 +122,7 @@ impl Scratch {
             if tally.starts {
                 self.starts.push(leaf);
             } else {
-                // Its parity may change often: the last value counts.
+                // Its parity may change often: the last value is valid.
                 self.starts.retain(|&l| l != leaf);
             }
         }
@@ -158,8 +158,8 @@ impl Scratch {
     }
 
     /// Passes the solid's crossings to `show`, in their order; returns `false` if `show` returned
-    /// [`ControlFlow::Break`]. [`Scratch::starts_inside`] must be called before. Continues from the last
-    /// call, not beyond `until`: before that no event is missing.
+    /// [`ControlFlow::Break`]. [`Scratch::starts_inside`] must be called before. Continues from the
+    /// last call up to `until`, before which no event is missing.
     pub(super) fn sweep(
         &mut self,
         tree: &Tree,
@@ -237,7 +237,7 @@ impl Scratch {
             let Tally { net, count, .. } = self.leaves[leaf as usize];
             let is = self.values.leaf(leaf);
             let then = match sense(leaf) {
-                // Where a leaf is touched it begins or ends, for one point.
+                // Where a ray touches a leaf, the leaf holds (or fails) for one point.
                 _ if touches => !is,
                 Sense::Parity => is ^ (count % 2 == 1),
                 Sense::Sign if net == 0 => is,
@@ -298,7 +298,7 @@ impl Scratch {
             let Tally { net, count, .. } = self.leaves[event.leaf as usize];
             let is_cause = match sense(event.leaf) {
                 Sense::Sign => net != 0 && (event.root.sign < 0) == holds,
-                // Of several crossings of one leaf the first stands for all.
+                // Of several crossings of one leaf only the first is reported.
                 Sense::Parity => count % 2 == 1 && group[..i].iter().all(|e| e.leaf != event.leaf),
             };
             if !is_cause || !is_shown(event) || !self.values.is_visible(tree, event.leaf) {

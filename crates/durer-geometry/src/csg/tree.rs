@@ -172,15 +172,15 @@ impl Tree {
         self.boxes(leaves, true)[0]
     }
 
-    /// For each leaf, a box outside of which its value does not matter: there it does not hold, or
-    /// a node above it does not.
+    /// For each leaf, a box outside of which its value does not matter: there the leaf does not
+    /// hold, or an ancestor does not.
     ///
     /// These are S-bounds (S. Cameron, "Efficient intersection tests for objects defined
     /// constructively", International Journal of Robotics Research 8(1), 1989): boxes of nodes are
-    /// computed from below, and clipped by those of the nodes above from above.
+    /// computed bottom-up, and then clipped by those of their ancestors top-down.
     ///
-    /// A ray that misses the box of a leaf may skip it, and then takes it not to hold. So the box
-    /// of an intersection may be smaller only because of children that are not complements:
+    /// A ray that misses the box of a leaf may skip it, and then assumes that the leaf does not
+    /// hold. So only children that are not complements may shrink the box of an intersection:
     /// outside of the box one of them does not hold, whether it is skipped or not, but a skipped
     /// complement would hold.
     pub(crate) fn where_leaves_matter(&self, leaves: &[Extent]) -> Vec<Aabb> {
@@ -195,7 +195,7 @@ impl Tree {
         self.places.iter().zip(leaves).map(matters).collect()
     }
 
-    /// Boxes around the nodes, the root first; smaller ones `with_complements`.
+    /// Boxes around the nodes, the root first; `with_complements` makes them smaller.
     fn boxes(&self, leaves: &[Extent], with_complements: bool) -> Vec<Aabb> {
         let start = |n: &Node| if n.rule == Rule::All { Aabb::UNBOUNDED } else { Aabb::EMPTY };
         let mut boxes: Vec<Aabb> = self.nodes.iter().map(start).collect();
@@ -244,7 +244,7 @@ impl Tree {
     }
 }
 
-/// A box around what is left of `whole` without the boxes `parts`.
+/// A box around the part of `whole` outside the boxes `parts`.
 fn without(mut whole: Aabb, parts: &[Aabb]) -> Aabb {
     let mut has_changed = true;
     while has_changed && !whole.is_empty() {
@@ -276,7 +276,7 @@ fn cut(a: Aabb, b: Aabb) -> Aabb {
     if both.is_empty() { Aabb::EMPTY } else { both }
 }
 
-/// The present count of a node.
+/// The current count of a node.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     /// Counts of older epochs are void.
@@ -288,7 +288,7 @@ struct Count {
     count: u32,
 }
 
-/// The present value of a leaf.
+/// The current value of a leaf.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bit {
     epoch: u64,
@@ -374,7 +374,7 @@ impl Values {
         }
     }
 
-    /// Whether the root would change if a leaf did: no node above the leaf is decided by its other
+    /// Whether the root would change if a leaf did: no ancestor of the leaf is decided by its other
     /// children.
     pub(crate) fn matters(&self, tree: &Tree, leaf: u32) -> bool {
         self.path_is_free(tree, leaf, false)
@@ -386,8 +386,8 @@ impl Values {
         self.path_is_free(tree, leaf, true)
     }
 
-    /// Whether no node above a leaf is decided by its other children. Unions that keep their inner
-    /// faces are not asked if `through_inner_faces`.
+    /// Whether no ancestor of a leaf is decided by its other children. With `through_inner_faces`,
+    /// unions that keep their inner faces are ignored.
     fn path_is_free(&self, tree: &Tree, leaf: u32, through_inner_faces: bool) -> bool {
         let TreePosition { mut node, inverted } = tree.places[leaf as usize];
         let mut holds = self.leaf(leaf) != inverted;

@@ -17,7 +17,7 @@ pub struct Rays8 {
     pub direction: Vec3<F8>,
     /// The ends of the ranges.
     pub t_max: F8,
-    /// Which lanes hold a ray; the contents of the others do not matter.
+    /// The lanes that hold a ray; the contents of the others do not matter.
     pub live: M8,
     /// The sources of spawned rays.
     pub source: Sources8,
@@ -38,9 +38,9 @@ pub struct Sources8 {
 /// The first hits of eight rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Hits8 {
-    /// Which rays hit anything. Only their lanes of the other members have a meaning.
+    /// The rays that hit anything. The other members are valid only in their lanes.
     pub hit: M8,
-    /// Which hits are grazing.
+    /// The grazing hits.
     pub touching: M8,
     /// The parameters, in units of the direction.
     pub t: F8,
@@ -226,7 +226,7 @@ impl Hits8 {
         let Some((hit, point)) = seen else { return };
         self.touching.set_lane(i, hit.sign == 0);
         self.t.0[i] = hit.t;
-        // The factor pays for the rounding of the differences.
+        // The factor covers the rounding of the differences.
         self.t_error.0[i] = (hit.t - hit.t_lo).max(hit.t_hi - hit.t) * (1.0 + 2.0 * U);
         // At a double tip, the middle between the starts.
         let p = point.p + point.aside;

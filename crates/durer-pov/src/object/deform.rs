@@ -22,7 +22,7 @@ const MOST_WARPS: usize = 64;
 const MOST_COUNT: f64 = 65535.0;
 
 impl Parser<'_> {
-    /// The solid and what is done to it, from the opening brace on.
+    /// The solid and its warps, from the opening brace on.
     pub(crate) fn deform(&mut self, place: Place) -> Result<Shape> {
         self.expect(Mark::BraceOpen)?;
         if !self.starts_object()? {
@@ -129,7 +129,7 @@ impl Parser<'_> {
         Ok(Warp::Lattice(Arc::new(lattice)))
     }
 
-    /// A whole number and its comma.
+    /// An integer and its comma.
     fn count(&mut self, what: &str) -> Result<usize> {
         self.peek()?;
         let at = self.here();
@@ -269,8 +269,8 @@ fn of_parameters(shape: &Shape) -> Option<&'static str> {
     }
 }
 
-/// Refuses what has no formula. A surface given by parameters is deformed by itself, not as a part
-/// of an intersection, say.
+/// Refuses solids without a formula. A surface given by parameters is deformed by itself, not as a
+/// part of an intersection, say.
 fn check(object: &Rc<Object>, alone: bool) -> Result<()> {
     let refuse = |why: &str| Err(Error::invalid(object.at, why));
     if !object.clips.is_empty() {

@@ -189,7 +189,7 @@ impl Parser<'_> {
         Ok(scene::Shape::Named(Box::new(named)).into())
     }
 
-    /// Two points, and how far from the line between them the surface is.
+    /// Two points, and the distance of the surface from the line between them.
     fn capsule(&mut self) -> Result<Shape> {
         let ends = [self.corner()?, self.corner()?];
         let radius = self.radius("the radius of the capsule")?;

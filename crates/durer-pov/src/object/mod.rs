@@ -45,7 +45,7 @@ pub(crate) enum Shape {
     },
     /// An object without a visible point, such as a sphere of radius 0.
     Nothing,
-    /// A solid and what is done to it.
+    /// A solid and its warps.
     Deform(Rc<Object>, Rc<[scene::Warp]>),
     Union(Vec<Rc<Object>>),
     Csg(Operation, Vec<Rc<Object>>),
@@ -126,31 +126,31 @@ pub(crate) struct Habits {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Object {
     pub(crate) shape: Shape,
-    /// From the shape's own numbers to the block around.
+    /// The map from the shape's own frame to that of the block around.
     pub(crate) place: Matrix,
     pub(crate) texture: Option<Rc<Texture>>,
-    /// The texture that is seen from inside.
+    /// The texture of the inside.
     pub(crate) interior_texture: Option<Rc<Texture>>,
-    /// Its parts lend each other their textures.
+    /// Whether its parts share their textures on cuts.
     pub(crate) cutaway_textures: bool,
     pub(crate) interior: Option<Rc<Interior>>,
     pub(crate) clips: Vec<Rc<Self>>,
     pub(crate) bounds: Vec<Rc<Self>>,
     pub(crate) habits: Habits,
-    /// Where it was written.
+    /// Its place in the text.
     pub(crate) at: Place,
-    /// Unions inside unions, this one included.
+    /// The nesting depth of unions, this one included.
     depth: u32,
-    /// Surfaces in it.
+    /// The number of surfaces in it.
     pub(crate) leaves: u64,
-    /// It, a part of it or something that cuts it is [`Shape::FlatBox`] or [`Shape::Nothing`].
+    /// Whether it, a part of it or one of its clips is [`Shape::FlatBox`] or [`Shape::Nothing`].
     pub(crate) lacks_volume: bool,
     charge: Charge,
-    /// The charge for what all copies of the shape share.
+    /// The charge for data that all copies of the shape share.
     pub(crate) shared: Option<Rc<Charge>>,
 }
 
-/// How deeply unions may stand in each other, by whatever names: what follows the reader walks them
+/// The largest nesting depth of unions, also by names: the steps after the reader visit them
 /// recursively.
 const DEEPEST: u32 = 256;
 

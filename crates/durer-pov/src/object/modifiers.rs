@@ -100,7 +100,7 @@ impl Parser<'_> {
         }
     }
 
-    /// How an object takes part in photon mapping says nothing while there is none.
+    /// Skips the settings of an object for photon mapping, which durer does not have yet.
     pub(crate) fn skip_photons(&mut self) -> Result<()> {
         let braces = self.braces;
         self.expect(Mark::BraceOpen)?;

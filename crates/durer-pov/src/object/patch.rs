@@ -357,7 +357,7 @@ impl Parser<'_> {
         Ok(knots)
     }
 
-    /// A whole number in a range, and the comma behind it.
+    /// An integer in a range, and the comma after it.
     fn whole_from(&mut self, what: &str, least: usize, most: usize) -> Result<usize> {
         self.peek()?;
         let at = self.here();

@@ -1,16 +1,15 @@
-//! What the scene asks about its own objects: `trace`, `inside`, `min_extent` and `max_extent`.
+//! Queries of the scene about its own objects: `trace`, `inside`, `min_extent` and `max_extent`.
 //!
-//! An object that is asked for the first time is made ready for rays as if it were the whole scene,
-//! so the answers are those of the kernels: exact. The last few are kept, since scenes ask in
-//! loops.
+//! At its first query an object is lowered as if it were the whole scene, so the kernels give exact
+//! answers. The last few objects are kept, since scenes query them in loops.
 //!
 //! Facts of the scene language, found by `#debug` with POV-Ray 3.7:
 //!
-//! - `trace` leaves out surfaces on which the ray starts. The normal is the object's own and points
-//!   out of solids, whichever way the ray goes. That of a flat triangle is the opposite of
+//! - `trace` ignores surfaces on which the ray starts. The normal is the object's own and points
+//!   out of solids, whatever the ray's direction. That of a flat triangle is the opposite of
 //!   `cross(b - a, c - a)`, that of a smooth one is interpolated.
-//! - `inside`: what is clipped holds what the object and all its clips hold.
-//! - The extent is that of a box in the object's own frame, of which the corners are transformed.
+//! - `inside`: a clipped object contains the points that are in it and in all its clips.
+//! - The extent is that of the transformed corners of a box in the object's own frame.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -29,20 +28,20 @@ use crate::value::{Terms, Value};
 /// How many objects are kept ready for rays.
 const KEPT: usize = 32;
 
-/// Steps that a question counts for, beside those of making the object ready.
+/// The steps charged for a query, in addition to those for lowering the object.
 const STEPS: u64 = 20;
 
-/// Bytes that a surface takes when it is ready for rays, about.
+/// The approximate bytes of a lowered surface.
 const SURFACE_BYTES: usize = 400;
 
 /// The extent that POV-Ray gives to unbounded objects.
 const UNBOUNDED: f64 = 1e10;
 
-/// An object that was asked, ready for rays.
+/// A queried object, ready for rays.
 #[derive(Debug)]
 struct Asked {
     object: Rc<Object>,
-    /// `inside` asks about other surfaces than `trace`.
+    /// Whether only the volume is lowered: `inside` needs other surfaces than `trace`.
     solid: bool,
     /// `None` if no surface is left.
     ready: Option<Rc<Ready>>,
@@ -59,17 +58,17 @@ struct Ready {
 /// The kind of a primitive's normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Triangle {
-    /// That of the kernel.
+    /// The normal of the kernel.
     Not,
-    /// The opposite of that of the kernel.
+    /// The opposite of the kernel's normal.
     Opposite,
-    /// The interpolated one.
+    /// The interpolated normal.
     Smooth,
-    /// The interpolated one, which the kernel turned to the side of the cross product.
+    /// The interpolated normal, which the kernel reversed to the side of the cross product.
     SmoothTurned,
 }
 
-/// The objects that were asked lately.
+/// The objects that were queried last.
 #[derive(Debug, Default)]
 pub(crate) struct Questions(VecDeque<Asked>);
 
@@ -118,7 +117,7 @@ impl Parser<'_> {
         if object.lacks_volume {
             return Err(Error::invalid(place, "this object has parts without volume, so it is no pattern"));
         }
-        // It is built once here, so that what cannot be built is named.
+        // It is built once here, so that errors name the object.
         self.ready(&object, true, place)?;
         let made = self.emitted(&object, &mut Lights::new()).map_err(|fault| from_here(fault, place))?;
         made.map(volume).ok_or_else(|| Error::invalid(place, "this object has no inside"))
@@ -135,7 +134,7 @@ impl Parser<'_> {
         Ok(end.map(|v| v.clamp(-UNBOUNDED, UNBOUNDED)).into())
     }
 
-    /// The object that is asked, and the comma behind it.
+    /// Reads the object of a query, and the comma after it.
     fn asked_object(&mut self) -> Result<Rc<Object>> {
         if !self.starts_object()? {
             let lexeme = self.next()?;
@@ -186,7 +185,8 @@ impl Parser<'_> {
         Ok(ready)
     }
 
-    /// Flat boxes and what shows nothing hold no point; all of space holds each.
+    /// Answers `inside` for objects without volume: flat boxes and empty objects contain no point,
+    /// all of space contains each.
     fn inside_what_lacks_volume(&mut self, object: &Object, at: [f64; 3], place: Place) -> Result<Terms> {
         let own = object.place.inverse().map_or(at, |back| back.point(at));
         let mut within = match &object.shape {
@@ -266,7 +266,7 @@ impl Parser<'_> {
         self.cut_extent(object, placed, place)
     }
 
-    /// The box of what clips an object, or of `bounded_by`, if that is smaller than its own.
+    /// The box of an object's clips, or of its `bounded_by`, if that is smaller than its own.
     fn cut_extent(&mut self, object: &Object, own: Extent, place: Place) -> Result<Extent> {
         let mut cut = Extent::SPACE;
         for clip in object.clips.iter().chain(&object.bounds) {
@@ -303,7 +303,7 @@ impl Parser<'_> {
     }
 }
 
-/// A fault in an object that was asked, and where it was asked.
+/// An error in a queried object, with the place of the query.
 fn from_here(mut fault: Box<Error>, place: Place) -> Box<Error> {
     if fault.place != Some(place) {
         fault.route.push(("what is asked".to_owned(), place));
@@ -344,7 +344,7 @@ impl Ready {
     }
 }
 
-/// The volume of an object: without `open`, what is clipped as an intersection with its clips.
+/// The volume of an object: `open` is removed, and clips become an intersection.
 fn volume(mut object: scene::Object) -> scene::Object {
     object.flags.open = false;
     object.shape = match object.shape {
@@ -388,7 +388,7 @@ fn collect_triangles(object: &scene::Object, kinds: &mut Vec<Triangle>) {
             parts.iter().for_each(|part| collect_triangles(part, kinds));
         }
         scene::Shape::Triangle(_) => kinds.push(Triangle::Opposite),
-        // The kernel's triangle looks where its normals look.
+        // The kernel orients the triangle by its normals.
         scene::Shape::SmoothTriangle(_) => kinds.push(Triangle::Smooth),
         scene::Shape::HeightField(field) if field.is_smooth() => kinds.push(Triangle::Smooth),
         scene::Shape::Mesh(mesh) => kinds.extend(mesh.faces.iter().map(|face| {
@@ -414,7 +414,7 @@ fn smooth([a, b, c]: [[f64; 3]; 3], normals: [[f64; 3]; 3]) -> Triangle {
     if sum < 0.0 { Triangle::SmoothTurned } else { Triangle::Smooth }
 }
 
-/// A box, which may be empty or have no end.
+/// A box, which may be empty or unbounded.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
     min: [f64; 3],
@@ -430,7 +430,7 @@ impl Extent {
         points.into_iter().fold(Self::EMPTY, |all, p| all.with(&one(p)))
     }
 
-    /// The box of a surface in its own frame, if its numbers tell it.
+    /// The box of a surface in its own frame, if it follows directly from its numbers.
     fn of_leaf(leaf: &Leaf) -> Option<Self> {
         Some(match leaf {
             Leaf::Plane { .. } => Self::SPACE,
@@ -497,7 +497,7 @@ impl Extent {
         }
     }
 
-    /// Of the half-space that is left when this one is taken away.
+    /// The box of the complement of a half-space.
     fn other_half(self) -> Self {
         let turned = |from: [f64; 3], none: f64| from.map(|v| if v.is_finite() { v } else { none });
         Self { min: turned(self.max, f64::NEG_INFINITY), max: turned(self.min, f64::INFINITY) }
@@ -527,7 +527,8 @@ impl Extent {
     }
 }
 
-/// What a plane across an axis, or a quadric along one, bounds an intersection by, beside its box.
+/// The extent by which a plane across an axis, or a quadric along one, bounds an intersection, in
+/// addition to its box.
 fn half_space(part: &Object) -> Option<Extent> {
     if !part.place.is_identity() || !part.clips.is_empty() {
         return None;
@@ -564,8 +565,7 @@ fn length_of(v: [f64; 3]) -> f64 {
     crate::transform::length(v)
 }
 
-/// Whether lengths are only scaled by it: exactly, so that a turned sphere counts only if its
-/// matrix says so.
+/// Whether it scales all lengths equally, within rounding.
 fn is_similarity(place: &Matrix) -> bool {
     let [x, y, z, _] = place.rows;
     let size = dot(x, x);

@@ -318,7 +318,7 @@ impl Parser<'_> {
 }
 
 /// Whether the first three corners of an outline that are not on one line go round the other way
-/// than all of it does. They tell which side is the front.
+/// than all of it. They decide which side is the front.
 fn starts_inward(points: &[Point3]) -> bool {
     let from_first = |p: Point3| (p - points[0]).to_array();
     let turns = |a: Point3, b: Point3| cross(from_first(a), from_first(b));

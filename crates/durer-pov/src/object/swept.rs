@@ -252,7 +252,7 @@ impl Parser<'_> {
         Ok(scene::Shape::Lathe(spline, points.into()).into())
     }
 
-    /// `bottom radius, top radius`. One of them may be 0; then the other sphere is all.
+    /// `bottom radius, top radius`. One of them may be 0; then the other sphere is the whole solid.
     pub(super) fn ovus(&mut self, place: Place) -> Result<Shape> {
         let bottom = self.size()?;
         self.skip_comma()?;

@@ -49,7 +49,7 @@ impl Parser<'_> {
         Ok(scene::Shape::HeightField(Box::new(field.with_water_level(water_level))).into())
     }
 
-    /// The field of a picture: its type, if that is not told by the ending of its name, and its
+    /// Reads the picture of a height field: its type, unless the name's extension gives it, and its
     /// name.
     fn height_picture(&mut self, place: Place) -> Result<HeightField> {
         let mut format = None;
@@ -195,7 +195,7 @@ impl Parser<'_> {
         Ok(scene::Shape::Terrain(Box::new(terrain.with_water_level(water_level))).into())
     }
 
-    /// A whole number from 0 to `most`.
+    /// An integer from 0 to `most`.
     fn whole(&mut self, what: &str, most: f64) -> Result<u64> {
         self.peek()?;
         let at = self.here();
@@ -231,7 +231,7 @@ fn check_size([columns, rows]: [usize; 2]) -> Option<String> {
     })
 }
 
-/// The memory, in bytes, of a field with so many samples and of their bounds.
+/// The memory, in bytes, of a field with this many samples and of their bounds.
 fn bytes_of([columns, rows]: [usize; 2], each: usize) -> usize {
     columns * rows * (each + 3)
 }
@@ -243,7 +243,7 @@ fn sampled(formula: &Formula, size: [usize; 2]) -> (Vec<f64>, usize) {
     heights_of(size, |x, y| tape.values(&[x, F8::splat(y), F8::ZERO]))
 }
 
-/// As [`sampled`], for values at eight `x` and one `y`.
+/// [`sampled`] for values at eight `x` and one `y`.
 fn heights_of([columns, rows]: [usize; 2], values: impl Fn(F8, f64) -> F8) -> (Vec<f64>, usize) {
     let (mut heights, mut outside) = (Vec::with_capacity(columns * rows), 0);
     let at = |n: usize, count: usize| n.min(count - 1) as f64 / (count - 1) as f64;

@@ -28,9 +28,9 @@ pub(crate) enum Pixels {
 /// The meaning of the numbers of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FileGamma {
-    /// Nothing is said; usual files of this format are encoded as sRGB.
+    /// Not stated; files of this format are usually encoded as sRGB.
     UsuallySrgb,
-    /// Nothing is said; the numbers are taken as they are.
+    /// Not stated; the numbers are used without conversion.
     Unknown,
     /// Light is the number to this power.
     Power(f64),
@@ -38,7 +38,7 @@ pub(crate) enum FileGamma {
     Srgb,
 }
 
-/// Reads the picture at `path`; `may_hold` is asked whether so many pixels may be kept.
+/// Reads the picture at `path`; `may_hold` returns whether that many pixels may be kept.
 pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHold<'_>) -> Result<Colours> {
     let bytes = source::read_bytes(path, limits, "a picture").map_err(Fault::Text)?;
     if bytes.is_empty() {

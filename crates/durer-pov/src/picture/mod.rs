@@ -2,10 +2,10 @@
 //!
 //! Facts of the scene language, found by `trace` with POV-Ray 3.7:
 //!
-//! - Grey values of 16 bits stand as they are, those of fewer bits are stretched to 0..65535.
+//! - Grey values of 16 bits are unchanged, those of fewer bits are stretched to 0..65535.
 //! - Of a PNG of 8 bits without alpha a third of the levels come out one lower ([`of_png_grey`]).
-//! - In a colour picture red is the high byte and green the low one; blue and alpha say nothing.
-//! - In a picture with a palette the index is the high byte; its colours say nothing.
+//! - In a colour picture red is the high byte and green the low one; blue and alpha are ignored.
+//! - In a picture with a palette the index is the high byte; its colours are ignored.
 //! - The left half of a POT picture holds the high bytes, its right half the low bytes.
 
 pub(crate) mod colours;
@@ -127,7 +127,7 @@ impl Format {
     }
 }
 
-/// Reads the picture at `path`; `may_hold` is asked whether so many heights may be kept.
+/// Reads the picture at `path`; `may_hold` returns whether that many heights may be kept.
 pub(crate) fn read(path: &Path, format: Format, limits: &Limits, may_hold: MayHold<'_>) -> Result<Picture> {
     let bytes = source::read_bytes(path, limits, "a picture").map_err(Fault::Text)?;
     if bytes.is_empty() {

@@ -32,7 +32,7 @@ pub(crate) struct Film {
     pub(crate) amount: f64,
     pub(crate) thickness: f64,
     pub(crate) turbulence: f64,
-    /// Whether the noise is the first generator's.
+    /// Whether the turbulence uses the first noise generator.
     pub(crate) old: bool,
 }
 
@@ -43,7 +43,8 @@ pub(crate) struct Finish {
     pub(crate) emission: [f64; 3],
     pub(crate) diffuse: f64,
     pub(crate) diffuse_back: f64,
-    /// Whether `albedo` was written: then the number is the total, not the height of the curve.
+    /// Whether `albedo` was given: then the number is the total reflected light, not the curve's
+    /// maximum.
     pub(crate) diffuse_albedo: bool,
     pub(crate) brilliance: f64,
     pub(crate) phong: f64,
@@ -55,13 +56,13 @@ pub(crate) struct Finish {
     pub(crate) metallic: f64,
     pub(crate) crand: f64,
     pub(crate) conserve_energy: bool,
-    /// The amount and the thickness of a thin film.
+    /// The thin film, if there is one.
     pub(crate) irid: Option<Film>,
     pub(crate) reflection: Reflection,
-    /// The index of refraction of the inside, in old scenes: it counts in place of the interior's.
+    /// The index of refraction of the inside, in old scenes: it replaces the interior's.
     pub(crate) ior: Option<f64>,
-    /// The caustics of the inside, in old scenes: the exponent of the cosine, not the number that an
-    /// interior has.
+    /// The caustics of the inside, in old scenes: the exponent of the cosine, unlike the number of
+    /// an interior.
     pub(crate) caustics: Option<f64>,
 }
 
@@ -96,7 +97,7 @@ fn rgb(colour: Colour) -> [f64; 3] {
 }
 
 impl Parser<'_> {
-    /// Reads what stands in braces after `finish`; `base` is the finish that it changes.
+    /// Reads the block after `finish`, which changes the finish `base`.
     pub(crate) fn finish_block(&mut self, base: &Finish) -> Result<Finish> {
         self.expect(Mark::BraceOpen)?;
         let mut finish = base.clone();
@@ -175,7 +176,7 @@ impl Parser<'_> {
             match &lexeme.item {
                 Item::Mark(Mark::BraceClose) => break,
                 Item::Word(Keyword::Thickness) => film.thickness = self.float()?,
-                // The first component of a vector counts (a fact of the language).
+                // Only the first component of a vector is used (a fact of the language).
                 Item::Word(Keyword::Turbulence) => film.turbulence = self.vector()?[0],
                 _ => return Err(self.unexpected(&lexeme, "a part of irid")),
             }
@@ -192,8 +193,8 @@ impl Parser<'_> {
         Ok(exponent)
     }
 
-    /// Reads `reflection 0.5` or `reflection { min, max ... }`. All other words of a reflection before
-    /// stay (a fact of the language).
+    /// Reads `reflection 0.5` or `reflection { min, max ... }`. Other words of an earlier
+    /// reflection keep their values (a fact of the language).
     fn reflection(&mut self, reflection: &mut Reflection) -> Result<()> {
         if !self.take_mark(Mark::BraceOpen)? {
             let colour = rgb(self.colour()?);

@@ -13,18 +13,18 @@ use crate::picture::colours::{Colours, FileGamma, Pixels};
 use crate::picture::{Fault, Format, colours};
 use crate::settings::Gamma;
 
-/// A picture with what its block says of it.
+/// A picture with the settings of its block.
 pub(crate) struct ReadImage {
     pub(crate) map: Arc<ImageMap>,
-    /// The number that a pattern takes from it.
+    /// The value that a pattern takes from it.
     pub(crate) value: ImageValue,
-    /// The number that the scene asks for.
+    /// The value that the scene requests.
     stated: Option<ImageValue>,
-    /// The height of its bumps, if it is given.
+    /// The height of its bumps, if given.
     pub(crate) bump_size: Option<f64>,
 }
 
-/// Bytes of a pixel.
+/// The bytes of a pixel.
 const PIXEL: usize = size_of::<[f32; 5]>();
 
 /// The meaning of a file's numbers, as the block or the file states it.
@@ -36,20 +36,21 @@ enum Meaning {
 }
 
 impl Parser<'_> {
-    /// Reads the block of a picture, and the picture.
+    /// Reads the block of a picture, and the picture's file.
     pub(super) fn image_block(&mut self) -> Result<ReadImage> {
         self.image_block_with(|_| Ok(false))
     }
 
-    /// The picture of a `bump_map`. Its heights are the numbers of the file, and those of colours
-    /// unless it says `use_index` (facts of the scene language).
+    /// The picture of a `bump_map`. Its heights are the file's numbers without conversion: those of
+    /// the colours, unless it says `use_index` (facts of the scene language).
     pub(super) fn bump_block(&mut self) -> Result<ReadImage> {
         let read = self.image_block_as(true, |_| Ok(false))?;
         let value = read.stated.unwrap_or(ImageValue::Grey);
         Ok(ReadImage { value, ..read })
     }
 
-    /// As [`Parser::image_block`]; `other` reads what else may stand in the block, if it comes next.
+    /// [`Parser::image_block`] for blocks with further words: `other` reads the next one, and
+    /// returns whether there was one.
     pub(super) fn image_block_with(
         &mut self,
         other: impl FnMut(&mut Self) -> Result<bool>,
@@ -57,7 +58,7 @@ impl Parser<'_> {
         self.image_block_as(false, other)
     }
 
-    /// `is_raw` if the numbers of the file stand as they are.
+    /// [`Parser::image_block_with`]; with `is_raw` the numbers of the file are not converted.
     fn image_block_as(
         &mut self,
         is_raw: bool,
@@ -87,7 +88,7 @@ impl Parser<'_> {
         let (mut layout, mut once, mut between) = (Layout::Flat, false, Between::Nearest);
         let mut value = None;
         let mut bump_size = None;
-        // Whether it is a filter, which entry (none for all), and how much.
+        // Whether it is a filter, which entry (`None` for all), and the amount.
         let mut clears: Vec<(bool, Option<usize>, f64)> = Vec::new();
         loop {
             self.skip_comma()?;
@@ -180,7 +181,7 @@ impl Parser<'_> {
         Ok(found)
     }
 
-    /// The path of a picture that the scene names.
+    /// The path of a picture by its name in the scene.
     pub(crate) fn picture_path(&mut self, name: &str, at: Place) -> Result<std::path::PathBuf> {
         self.library.find(name).ok_or_else(|| {
             let names = self.library.names();
@@ -191,7 +192,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The picture on the scene's own scale of numbers.
+    /// Converts a picture to the scene's own colour values.
     fn finished_image(
         &self,
         found: Colours,

@@ -37,7 +37,7 @@ pub(crate) enum NormalKind {
     Facets(f64),
 }
 
-/// The amount of a normal that says none.
+/// The default amount of a normal.
 const AMOUNT: f64 = 0.5;
 /// The distance at which heights are compared, if none is given.
 const ACCURACY: f64 = 0.02;
@@ -76,7 +76,7 @@ impl Normal {
 }
 
 impl Parser<'_> {
-    /// Reads what stands in braces after `normal`; `base` is the normal that it changes.
+    /// Reads the block after `normal`, which changes the normal `base`.
     pub(crate) fn normal_block(&mut self, base: &Normal) -> Result<Normal> {
         self.expect(Mark::BraceOpen)?;
         let normal = self.normal_items(base, Mark::BraceClose)?;

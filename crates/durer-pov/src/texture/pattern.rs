@@ -80,14 +80,14 @@ pub(crate) struct PatternModifiers {
     pub(crate) phase: f64,
     pub(crate) wave: Wave,
     pub(crate) turbulence: Rc<Turbulence>,
-    /// The warps in the order of the text, each with the placement of what it warps.
+    /// The warps in the order of the text, each with the placement to which it applies.
     pub(crate) warps: Rc<Vec<(Matrix, durer_scene::PointWarp)>>,
     /// The map from the pattern's own space to the object's.
     pub(crate) place: Matrix,
-    /// Whether the pattern is seen at the surface's texture coordinates in place of the point.
+    /// Whether the pattern is evaluated at the surface's texture coordinates instead of the point.
     pub(crate) on_chart: bool,
-    /// If its whole texture is seen at texture coordinates: the map by which perturbations of normals
-    /// are turned.
+    /// If its whole texture is evaluated at texture coordinates: the map that rotates perturbations
+    /// of normals.
     pub(crate) turn: Option<Box<Matrix>>,
 }
 
@@ -125,8 +125,8 @@ impl PatternModifiers {
         }
     }
 
-    /// Transforms the pattern with what it stands in. Texture coordinates do not move with an object
-    /// (a fact of the language).
+    /// Transforms the pattern together with its owner. Texture coordinates do not move with an
+    /// object (a fact of the language).
     pub(crate) fn transform(&mut self, by: &Matrix) {
         if !self.on_chart {
             self.place = self.place.then(by);

@@ -24,8 +24,8 @@ pub(crate) enum Paint {
 
 /// A pigment: the colour at each point.
 ///
-/// A word for a colour or a pattern replaces what is shown. Everything else of the pigment that it
-/// changes is kept (a fact of the language): its transformations, its frequency and the like, and
+/// A word for a colour or a pattern replaces the earlier colour or pattern. Everything else of the
+/// pigment is kept (a fact of the language): its transformations, its frequency and the like, and
 /// its map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Pigment {

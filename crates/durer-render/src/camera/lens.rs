@@ -35,8 +35,8 @@ pub(crate) struct RenderLens {
     pub(super) focus: f64,
     fewest: u32,
     most: u32,
-    /// No more rays are sent where the squared standard error of the mean is at most this, in each
-    /// channel.
+    /// Sampling of a point ends when the squared standard error of the mean is at most this, in
+    /// each channel.
     enough: f64,
     shape: Shape,
     /// The side of the square in which a point is moved at random.
@@ -47,20 +47,22 @@ pub(crate) struct RenderLens {
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
     Disc,
-    /// The middles of squares.
+    /// The centres of squares.
     Squares(Vec<[f64; 2]>),
-    /// The parts of the light in the first cells of a grid with [`BOKEH`] columns and rows.
+    /// A cumulative distribution: for each cell of a grid with [`BOKEH`] columns and rows, the
+    /// fraction of the light in this cell and all before it.
     Bokeh(Vec<f64>),
 }
 
-/// POV-Ray sends this many times as many rays as the variance alone asks for: where half of the
-/// rays are white, it stops after 97 of them with a variance of 0.03, and after about 370 with 1/128.
+/// POV-Ray sends this many times as many rays as the variance alone requires: where half of the
+/// rays are white, it stops after 97 of them with a variance of 0.03, and after about 370 with
+/// 1/128.
 const STRICTNESS: f64 = 4.4;
 
 /// The number of columns and rows of cells of a bokeh.
 const BOKEH: usize = 256;
 
-/// The sums of a place's rays so far.
+/// The sums over a point's rays so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Samples {
     count: u32,
@@ -83,7 +85,7 @@ impl Samples {
 }
 
 impl RenderLens {
-    /// Prepares a lens; `None` if it shows what a pinhole does.
+    /// Prepares a lens; `None` if its picture is that of a pinhole.
     pub(super) fn new(lens: &Lens) -> Result<Option<Self>, AffineError> {
         let [fewest, most] = lens.samples;
         if lens.aperture == 0.0 || most == 0 {
@@ -117,17 +119,17 @@ impl RenderLens {
         }))
     }
 
-    /// The number of rays of a place with which it is asked whether they are enough.
+    /// The number of rays of a point before the first check whether they are enough.
     pub(crate) fn fewest(&self) -> u32 {
         self.fewest
     }
 
-    /// The most rays of a place.
+    /// The most rays of a point.
     pub(crate) fn most(&self) -> u32 {
         self.most
     }
 
-    /// Whether the mean of some rays is near enough to that of all.
+    /// Whether the mean of some rays is accurate enough.
     pub(crate) fn is_enough(&self, samples: &Samples) -> bool {
         if samples.count < self.fewest || samples.count < 2 {
             return samples.count >= self.most;
@@ -141,8 +143,8 @@ impl RenderLens {
             || near(sum.r, squares.r) && near(sum.g, squares.g) && near(sum.b, squares.b)
     }
 
-    /// The shift of a ray's place in pixels, to the right and down, and its point on the lens, to
-    /// the right and up. `x` and `y` are the place in pixels.
+    /// The shift of a ray's point of the picture in pixels, to the right and down, and its point on
+    /// the lens, to the right and up. `x` and `y` are the point of the picture in pixels.
     pub(super) fn sample(&self, x: f64, y: f64, number: u32) -> ([f64; 2], [f64; 2]) {
         let place = x.to_bits().rotate_left(32) ^ y.to_bits();
         let even = |dimension: u64, base: u32| {
@@ -177,7 +179,7 @@ impl RenderLens {
     }
 }
 
-/// The middles of squares in rows that are shifted by half a square: `rings` around one.
+/// The centres of squares in rows that are shifted by half a square: `rings` around one.
 fn hexagon(rings: u32, side: f64) -> Vec<[f64; 2]> {
     let rings = rings as i32;
     let height = 0.75_f64.sqrt() * side;
@@ -208,7 +210,7 @@ fn bokeh(pigment: &RenderPigment) -> Shape {
     Shape::Bokeh(parts)
 }
 
-/// The point of a disc of radius 1/4 for a point of the unit square; areas keep their ratio.
+/// Maps the unit square to a disc of radius 1/4, preserving ratios of areas.
 ///
 /// The map is that of P. Shirley and K. Chiu, "A low distortion map between disk and square",
 /// *Journal of Graphics Tools* 2 (1997) 45-52.
@@ -223,7 +225,7 @@ fn on_disc(u: f64, v: f64) -> [f64; 2] {
     [0.25 * r * cos, 0.25 * r * sin]
 }
 
-/// The digits of `i` in a base, mirrored at the point.
+/// The radical inverse of `i`: its digits in a base, mirrored at the radix point.
 fn halton(mut i: u32, base: u32) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0 / f64::from(base));
     while i > 0 {
@@ -243,7 +245,7 @@ fn quantile(probability: f64) -> f64 {
     let t = (-2.0 * elementary::ln(outside)).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
-    // With the probability 0 any mean would do.
+    // With the probability 0 any mean is accurate enough.
     (t - above / below).max(1e-3)
 }
 

@@ -41,7 +41,7 @@ pub enum CameraError {
     /// A vector has no length.
     #[error("camera: the {0} must not be zero")]
     Zero(&'static str),
-    /// The transformation of its normal or of its bokeh is singular or not finite.
+    /// The transformation of the camera's normal or bokeh is singular or not finite.
     #[error("camera: a texture's transformation: {0}")]
     Texture(#[from] AffineError),
 }
@@ -61,11 +61,11 @@ pub enum Camera {
     Modified(Arc<Modified>),
 }
 
-/// How many rays are sent for a place of the picture.
+/// The number of rays for a point of the picture.
 pub(crate) enum Sampling<'a> {
-    /// One.
+    /// One ray.
     Once,
-    /// As many as a mesh camera has faces for the place.
+    /// One ray for each face of a mesh camera at the point.
     Faces(&'a MeshRays),
     /// As many as a lens needs.
     Lens(&'a RenderLens),
@@ -88,9 +88,9 @@ impl Camera {
         })
     }
 
-    /// The ray with this number through a place in pixels of a picture of the given size; its
-    /// direction is zero where the picture shows nothing. Cameras that send one ray for each place
-    /// have no others.
+    /// The ray with this number through a point, in pixels, of a picture of the given size. Its
+    /// direction is zero where the picture shows nothing. For cameras with one ray per point all
+    /// numbers give that ray.
     #[inline]
     pub(crate) fn numbered(&self, x: f64, y: f64, number: u32, picture: (u32, u32)) -> Ray {
         let (px, py) = (on_picture(x, picture.0), on_picture(y, picture.1));
@@ -105,7 +105,7 @@ impl Camera {
         }
     }
 
-    /// How many rays are sent for a place.
+    /// The number of rays for a point.
     pub(crate) fn sampling(&self) -> Sampling<'_> {
         match self {
             Self::Mesh(camera) if camera.rays_per_place() > 1 => Sampling::Faces(camera),
@@ -114,7 +114,7 @@ impl Camera {
         }
     }
 
-    /// The end of its rays.
+    /// The end of the rays' range.
     pub(crate) fn t_max(&self) -> f64 {
         if let Self::Mesh(camera) = self { camera.t_max } else { f64::INFINITY }
     }
@@ -173,7 +173,7 @@ pub fn on_picture(x: f64, size: u32) -> f64 {
     2.0 * x / f64::from(size) - 1.0
 }
 
-/// [`Camera::on_picture`] for eight coordinates.
+/// [`on_picture`] for eight coordinates.
 #[inline(always)]
 fn on_picture_lanes(x: F8, size: u32) -> F8 {
     x * 2.0 / f64::from(size) - F8::ONE

@@ -232,7 +232,7 @@ impl Bytes {
         self.from(v, place(v))
     }
 
-    /// As [`Bytes::from`], for tables where no cell holds the lower ends of two bytes.
+    /// [`Bytes::from`] for tables where no cell holds the lower ends of two bytes.
     #[inline(always)]
     fn near(&self, v: f64, place: usize) -> u8 {
         let byte = self.start[place];

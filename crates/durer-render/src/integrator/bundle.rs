@@ -13,11 +13,11 @@ pub(super) const TOGETHER: usize = 16;
 /// gathered into new groups.
 const DENSE: u32 = 6;
 
-/// The greatest number of rays in a row; further ones see black. After this many clear surfaces in
-/// a row, no light passes. The limit bounds the list of media that each ray keeps.
+/// The greatest number of rays in a row; further ones are black. After this many transparent
+/// surfaces in a row, no light passes. The limit bounds the list of media that each ray keeps.
 pub(super) const DEEPEST: u32 = 4096;
 
-/// Where the colours that eight rays find are added.
+/// How the colours of eight rays enter the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paths8 {
     /// The greatest channel of the colour's weight in the picture.
@@ -35,8 +35,8 @@ pub(super) struct Paths8 {
 pub(super) struct BundleState<'w> {
     /// The recursion level; the camera's rays have level 1.
     pub(super) level: u32,
-    /// The number of rays that lead to these. Rays that pass through a surface unbent count here
-    /// too, but do not raise the level.
+    /// The number of rays before these. Rays that pass through a surface without refraction are
+    /// included, although they do not raise the level.
     pub(super) depth: u32,
     /// The mask of the objects that the rays can hit.
     pub(super) mask: u32,

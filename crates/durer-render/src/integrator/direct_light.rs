@@ -19,7 +19,7 @@ pub(super) struct Lamps<'w> {
     shadows: Shadows<'w>,
     /// How the current light falls on each group of points.
     falling: Vec<Falling>,
-    /// The light and its target before anything is in the way; kept for records only.
+    /// The light before shadows, and its target; kept for records only.
     unblocked: Vec<(Rgb8, Point3<F8>)>,
 }
 
@@ -30,16 +30,16 @@ type Bent<'a> = (&'a [View], &'a [View]);
 #[derive(Clone, Copy)]
 struct Falling {
     at: Incidence,
-    /// The points that the light can reach as far as its beam and the unperturbed surface tell.
+    /// The points that the light can reach according to its beam and the unperturbed surface.
     lit: M8,
     /// The factor of the light's colour.
     strength: F8,
-    /// The points whose way to the light can be blocked.
+    /// The points whose light objects can block.
     blockable: M8,
 }
 
-/// The layers that are lit; whether light falls on both sides of the surface; and whether on the side
-/// away from the eye.
+/// The lit layers; whether light falls on both sides of the surface; and whether it falls on the
+/// side away from the eye.
 type LitCoats<'a, 'c> = (&'a Coats<'c>, (bool, bool));
 
 impl<'w> Lamps<'w> {
@@ -98,8 +98,9 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Computes what all layers scatter of a light that has fallen on spots, without its colour. For
-    /// one point of an area light `to_middle` has the directions to the light's location.
+    /// Computes the light that all layers scatter from a light at the shading points, without its
+    /// colour. For one point of an area light `to_middle` has the directions to the light's
+    /// location.
     fn shine(
         &mut self,
         isa: Isa,
@@ -158,7 +159,7 @@ impl<'w> Lamps<'w> {
         self.soften((world, isa), (lamp, area), media, spots, stop, counts);
     }
 
-    /// Adds the light to the spots.
+    /// Adds the current light's contributions to the shading points.
     fn collect(&self, isa: Isa, spots: &mut [Spot]) {
         isa.run_in_lanes(
             #[inline(always)]
@@ -235,10 +236,10 @@ impl<'w> Lamps<'w> {
         let parts = area.parts();
         let depths = parts.iter().map(|part| part.depth + 1).max().unwrap_or(0);
         let mut sums = vec![Rgb8::BLACK; full.len()];
-        // The lanes that look into the parts of each depth.
+        // The lanes that examine the parts of each depth.
         let mut looking = vec![vec![M8::NONE; full.len()]; depths + 1];
         looking[0].copy_from_slice(needed);
-        // For each point the lanes for which it is known, and its light.
+        // For each point of the area, the lanes for which its light is computed, and that light.
         let mut known: Vec<Vec<(M8, Rgb8)>> = vec![Vec::new(); area.len()];
         let mut missing = vec![M8::NONE; full.len()];
         let mut number = 0;
@@ -287,7 +288,8 @@ impl<'w> Lamps<'w> {
         sums
     }
 
-    /// Computes how a light, or one point of its area, falls on spots, before anything is scattered.
+    /// Computes how a light, or one point of its area, falls on the shading points, before
+    /// scattering.
     fn fall(
         &mut self,
         isa: Isa,
@@ -329,7 +331,7 @@ impl<'w> Lamps<'w> {
         }
     }
 
-    /// Computes the part that a layer scatters.
+    /// Computes the light that a layer scatters.
     fn scatter(&mut self, isa: Isa, finish: &Finish, lit: &[Lit]) {
         let (falling, places) = (&self.falling, self.shadows.places(lit.len()));
         isa.run_in_lanes(
@@ -367,8 +369,8 @@ impl<'w> Lamps<'w> {
         );
     }
 
-    /// Multiplies what a layer added to the light by the interference of a thin film. The film knows
-    /// only the location of an area light, whose points light surfaces (a fact of the scene language).
+    /// Multiplies the light that a layer added by the interference of a thin film. For an area
+    /// light the film uses the light's location, not its points (a fact of the scene language).
     fn iridesce(
         &mut self,
         finish: &Finish,
@@ -410,7 +412,7 @@ impl<'w> Lamps<'w> {
     }
 }
 
-/// Aims shadow rays from a spot at the target.
+/// Aims shadow rays from a shading point at the target.
 #[inline(always)]
 fn send(to: Shade<'_>, spot: &Spot, live: M8) {
     let rays = to.rays;

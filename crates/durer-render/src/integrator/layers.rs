@@ -1,10 +1,10 @@
 //! The layers of a texture, shaded from the outermost inwards.
 //!
-//! Each layer adds its own light, times what the layers above it let pass. What all layers let pass
-//! is the factor of what lies behind the surface. Reflections of all layers are added without that
-//! factor.
+//! Each layer adds its own light, times the transmittance of the layers above it. The transmittance
+//! of all layers is the factor of the light from behind the surface. Reflections of all layers are
+//! added without that factor.
 //!
-//! Negative `filter` and `transmit` extrapolate: they subtract what is behind. So wherever the
+//! Negative `filter` and `transmit` extrapolate: they subtract light from behind. So wherever the
 //! transmitted light is compared with `adc_bailout`, magnitudes are compared (a fact of the scene
 //! language).
 
@@ -20,7 +20,7 @@ use crate::world::World;
 use durer_math::{F8, Isa, M8, Vec3};
 use durer_scene::Colour;
 
-/// What is left to compute after the layers of some spots were applied: direct light and
+/// The data for the remaining steps after the layers of some points were applied: direct light and
 /// reflections.
 #[derive(Default)]
 pub(super) struct Coats<'w> {
@@ -40,13 +40,13 @@ pub(super) struct Coats<'w> {
     mirror_views: Vec<View>,
     /// The views of the unperturbed surface; empty likewise.
     plain: Vec<View>,
-    /// Of bumpy surfaces: the normals of the outermost layer.
+    /// The normals of the outermost layer; for bumpy surfaces only.
     top_normals: Vec<Vec3<F8>>,
     /// The finish of the outermost layer, if it has a thin film.
     pub(super) film: Option<&'w Finish>,
     /// The number of spots.
     spots: usize,
-    /// The lanes of each spot that see the current layer.
+    /// The lanes of each point in which the current layer is visible.
     live: Vec<M8>,
     /// The pigment's colour there.
     paint: Vec<Colour8>,
@@ -133,7 +133,7 @@ impl<'w> Coats<'w> {
             }
             let top_normals = &self.top_normals;
             let seen = |(i, (spot, &live)): (usize, (&Spot, &M8))| {
-                // The patterns of all layers see the normals of the outermost one (a fact of the
+                // The patterns of all layers use the normals of the outermost one (a fact of the
                 // scene language).
                 let normals = top_normals.get(i).copied().unwrap_or(spot.view.normal);
                 (spot.inside, Around8 { normals, ..spot.around() }, live)
@@ -154,7 +154,7 @@ impl<'w> Coats<'w> {
                 None => self.pass(isa, spots),
             }
         }
-        // What passes is bent by the normals of the outermost layer.
+        // The normals of the outermost layer refract transmitted light.
         if let Some(top) = layers.last().filter(|_| is_bumpy) {
             for ((spot, plain), live) in spots.iter_mut().zip(&self.plain).zip(&mut self.live) {
                 (spot.view, *live) = (*plain, spot.live);
@@ -239,7 +239,7 @@ impl<'w> Coats<'w> {
         }
     }
 
-    /// Multiplies the passed light by what the layer lets pass.
+    /// Multiplies the transmittance by the layer's.
     fn pass(&self, isa: Isa, spots: &mut [Spot]) {
         isa.run_in_lanes(
             #[inline(always)]
@@ -251,7 +251,7 @@ impl<'w> Coats<'w> {
         );
     }
 
-    /// As [`Coats::pass`], for a layer that reflects; also records the reflection.
+    /// [`Coats::pass`] for a layer that reflects; also records the reflection.
     fn mirror(
         &mut self,
         isa: Isa,

@@ -13,10 +13,10 @@ use durer_math::F8;
 pub(super) enum Crossing {
     Enter,
     Leave {
-        /// The index in the list of the medium that is left.
+        /// The index, in the list, of the medium that the ray leaves.
         at: usize,
     },
-    /// The ray only touches the surface, and the list stays as it is.
+    /// The ray only touches the surface, and the list does not change.
     Touch,
 }
 
@@ -48,9 +48,9 @@ pub(super) struct Interface {
     pub(super) crossing: Crossing,
     /// The index of refraction before the surface divided by that behind it.
     pub(super) ratio: f64,
-    /// The same ratio for Fresnel's formula. It is a fact of the scene language that the medium
-    /// behind the surface is always taken to be the surface's own, except where a ray is in that
-    /// medium alone and leaves it.
+    /// The ratio for Fresnel's formula. There the medium behind the surface is always the surface's
+    /// own, except where a ray is in that medium alone and leaves it (a fact of the scene
+    /// language).
     fresnel_ratio: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A record of all rays that a picture's ray leads to, for explanations.
+//! A record of all rays that follow from one camera ray, for explanations.
 //!
 //! Recording follows one camera ray alone. Every bundle then holds one ray, so a bundle is a node
 //! of the tree of rays.
@@ -11,14 +11,14 @@ use durer_geometry::{Hits8, Rays8};
 use durer_math::{M8, Point3, Ray};
 use durer_scene::Rgb;
 
-/// How a ray came about.
+/// The reason why a ray was traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayKind {
-    /// It is the camera's.
+    /// It is the camera's ray.
     Camera,
-    /// It goes on behind a clear surface, bent or not.
+    /// It continues behind a transparent surface, refracted or not.
     Transmitted,
-    /// It could not pass a clear surface.
+    /// It is totally reflected at a transparent surface.
     TotallyReflected,
     /// A mirror reflects it.
     Reflected,
@@ -29,7 +29,7 @@ pub enum RayKind {
 pub struct TracedRay {
     /// The index of the ray that led to it; less than its own.
     pub parent: Option<usize>,
-    /// How it came about.
+    /// Why it was traced.
     pub kind: RayKind,
     /// The recursion level; the camera's rays have level 1.
     pub level: u32,
@@ -37,16 +37,17 @@ pub struct TracedRay {
     pub ray: Ray,
     /// The first surface that it hits: object, primitive, parameter and point.
     pub hit: Option<(u32, u32, f64, Point3)>,
-    /// The factor of what it sees in the pixel's colour. Behind a mirror that changes colours it
-    /// counts from that mirror.
+    /// The factor from the ray's colour to the pixel's. Behind a mirror that changes colours, the
+    /// factor to that mirror's colour.
     pub factor: Rgb,
-    /// What the surface's own and reflected light, or the background, adds to the pixel.
+    /// The contribution of the surface's own and scattered light, or of the background, to the
+    /// pixel.
     pub light: Rgb,
-    /// What the ray adds to the pixel with all the rays that it leads to.
+    /// The contribution of the ray and all rays that follow from it to the pixel.
     pub total: Rgb,
     /// The shadow rays from its hit, one for each light that the surface scatters.
     pub shadows: Vec<ShadowRay>,
-    /// What a mirror that changes colours shows of the ray.
+    /// The ray's colour as a mirror that changes colours shows it.
     shown: Option<Rgb>,
 }
 
@@ -63,12 +64,12 @@ pub struct ShadowRay {
     pub arrived: Rgb,
 }
 
-/// All rays that a camera ray leads to, in the order in which they are traced.
+/// All rays that follow from a camera ray, in the order in which they are traced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayTree {
     /// The rays; the first is the camera's.
     pub rays: Vec<TracedRay>,
-    /// Whether there are more than are kept.
+    /// Whether there are more rays than are kept.
     pub has_more: bool,
     /// The colour of the pixel.
     pub colour: Rgb,
@@ -87,7 +88,8 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Adds the ray of a bundle, whose state still names the ray before it. Returns its number.
+    /// Adds the ray of a bundle, whose state still has the number of the ray before it. Returns the
+    /// new number.
     pub(super) fn begin(&mut self, bundle: &Bundle<'_>) -> u32 {
         let state = &bundle.standing;
         let live = bundle.rays.iter().zip(&bundle.paths).find(|(rays, _)| rays.live.any());
@@ -122,7 +124,7 @@ impl Record {
         self.rays.get_mut(node as usize)
     }
 
-    /// Records what the node's ray hits, or the light from beyond all surfaces.
+    /// Records the hit of the node's ray, or the light of the background.
     pub(super) fn see(
         &mut self,
         node: u32,
@@ -145,7 +147,7 @@ impl Record {
         }
     }
 
-    /// Adds light that comes to the node's ray on its way to a spot.
+    /// Adds light that joins the node's ray on its way from a shading point.
     pub(super) fn add(&mut self, node: u32, spot: &Spot, light: Rgb8) {
         let Some(node) = self.node(node) else { return };
         for i in spot.live.lanes() {
@@ -163,7 +165,7 @@ impl Record {
         }
     }
 
-    /// Adds the light of one light, before and after what is in its way.
+    /// Adds the contribution of one light, unblocked and after shadows.
     pub(super) fn light(
         &mut self,
         node: u32,
@@ -195,7 +197,7 @@ impl Record {
         }
     }
 
-    /// Records what a mirror that changes colours shows of a ray.
+    /// Records the colour of a ray as a mirror that changes colours shows it.
     pub(super) fn show(&mut self, node: u32, shown: Rgb) {
         if let Some(node) = self.node(node) {
             node.shown = Some(shown);

@@ -176,9 +176,9 @@ impl<'w> Onward<'w> {
     }
 }
 
-/// The direction of mirror reflection. Where the normal is perturbed, a direction into the surface is
-/// mirrored again, by the unperturbed normal; if the perturbed normal points away from the eye, the
-/// unperturbed one alone counts then (facts of the scene language).
+/// The direction of mirror reflection. Where the normal is perturbed, a direction into the surface
+/// is mirrored again, by the unperturbed normal; if the perturbed normal points away from the eye,
+/// only the unperturbed one is used then (facts of the scene language).
 #[inline(always)]
 pub(super) fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     let direction = reflect(view.eye, view.normal);
@@ -189,7 +189,8 @@ pub(super) fn mirrored(view: &View, plain: Option<&View>) -> Vec3<F8> {
     enters.select3(again, direction)
 }
 
-/// The sum of the cosines of the angles at which mirrored light comes and goes through a thin film.
+/// The sum of the cosines of the angles of incidence and reflection of mirrored light at a thin
+/// film.
 #[inline(always)]
 pub(super) fn way_through_film(view: &View, direction: Vec3<F8>) -> F8 {
     view.cosine.abs() + dot(direction, view.normal).abs()
@@ -237,7 +238,7 @@ fn totally_reflected(world: &World, border: &Interface, spot: &Spot) -> M8 {
     open(world, spot) & !passes
 }
 
-/// The fraction of light that is left after the medium that the ray leaves here.
+/// The transmittance of the medium that the ray leaves here.
 #[inline(always)]
 fn faded(world: &World, part: &Part<'_, '_>, spot: &Spot) -> Rgb8 {
     match part.border.crossing {

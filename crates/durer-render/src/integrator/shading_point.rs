@@ -18,7 +18,7 @@ pub(super) struct Spot {
     pub(super) live: M8,
     /// The points.
     pub(super) hits: Hits8,
-    /// Where their colours are added.
+    /// How their colours enter the picture.
     pub(super) paths: Paths8,
     /// The directions of view. Before [`face`] is called, `eye` is the direction of the ray, not
     /// normalised.
@@ -27,16 +27,16 @@ pub(super) struct Spot {
     pub(super) distance: F8,
     /// The points in the space of their texture.
     pub(super) inside: Point3<F8>,
-    /// The texture coordinates, if the texture is shown by them.
+    /// The texture coordinates, if the texture uses them.
     pub(super) uv: [F8; 2],
     /// The light found so far.
     pub(super) sum: Rgb8,
-    /// The fraction of light that the layers so far let pass.
+    /// The transmittance of the layers so far.
     pub(super) passed: Rgb8,
 }
 
 impl Spot {
-    /// What patterns may know of the surface there.
+    /// The properties of the surface there that patterns may use.
     #[inline(always)]
     pub(super) fn around(&self) -> Around8 {
         Around8 { points: self.hits.p, normals: self.view.normal, rays: self.view.eye, uv: self.uv }
@@ -84,7 +84,7 @@ impl Spot {
     }
 }
 
-/// The spots in use, followed by spots kept for reuse.
+/// The shading points in use, followed by others kept for reuse.
 #[derive(Default)]
 pub(super) struct Spots {
     spots: Vec<Spot>,
@@ -92,7 +92,7 @@ pub(super) struct Spots {
 }
 
 impl Spots {
-    /// The next spot, without live lanes; its other contents are unspecified.
+    /// The next element, without live lanes; its other contents are unspecified.
     #[inline(always)]
     fn next(&mut self) -> &mut Spot {
         if self.used == self.spots.len() {

@@ -31,10 +31,10 @@ pub(super) struct Shadows<'w> {
     light: Vec<Rgb8>,
     rays: Vec<Rays8>,
     targets: Vec<Point3<F8>>,
-    /// The initial paths of the rays, group by group: the full light is left.
+    /// The initial paths of the rays, group by group, with the full light.
     starts: Vec<Paths8>,
-    /// Rays on their way through clear surfaces. The factor is the light that is left, the slot the
-    /// index in `light`.
+    /// Rays on their way through transparent surfaces. The factor is the transmittance so far, the
+    /// slot the index in `light`.
     clear: Vec<Bundle<'w>>,
     /// Empty bundles for reuse.
     spare: Vec<Bundle<'w>>,
@@ -74,8 +74,8 @@ impl<'w> Shadows<'w> {
         &self.light
     }
 
-    /// Takes the light from points whose rays do not hit the object through which a light shines,
-    /// and ends the rays of the others there. A light without shadows has no rays left.
+    /// Removes the light from points whose rays do not hit the object through which a light shines,
+    /// and ends the rays of the others there. A light without shadows keeps no rays.
     pub(super) fn project(&mut self, through: &Geometry, shadowless: bool) {
         // The sources of the rays belong to another geometry.
         let rays: Vec<Rays8> =
@@ -100,9 +100,9 @@ impl<'w> Shadows<'w> {
         }
     }
 
-    /// Reduces the light by what is in the way: opaque surfaces block it all, clear surfaces block
-    /// what they do not let pass. They do not bend the rays. Surfaces that pass through `end` throw
-    /// no shadow.
+    /// Reduces the light by the surfaces in between: opaque ones block it, transparent ones
+    /// multiply it by their transmittance. They do not refract shadow rays. Surfaces that pass
+    /// through `end` throw no shadow.
     pub(super) fn cast(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -164,7 +164,7 @@ impl<'w> Shadows<'w> {
         }
     }
 
-    /// Traces the rays that hit clear surfaces through all of these.
+    /// Traces the rays that hit transparent surfaces through all of these.
     fn go_through_clear(
         &mut self,
         (world, isa): (&'w World, Isa),
@@ -257,13 +257,13 @@ impl<'w> Shadows<'w> {
     }
 }
 
-/// Reduces the light of some rays by the surfaces that they hit. Returns the lanes where light is
-/// left.
+/// Reduces the light of some rays by the surfaces that they hit. Returns the lanes where light
+/// remains.
 #[inline(always)]
 fn pass(world: &World, look: &Look, crossing: Crossing, spot: &mut Spot) -> M8 {
     let direction = spot.view.eye;
     let ng = spot.hits.ng;
-    // Patterns and bumps see the normal on the side from which the ray comes.
+    // Patterns and bumps use the normal on the side from which the ray comes.
     let facing = F8::ZERO.lt(dot(ng, direction)).select3(ng * F8::splat(-1.0), ng);
     if let Some(chart) = look.chart {
         map_to_chart(&world.charts[chart as usize], core::slice::from_mut(spot));
@@ -312,7 +312,7 @@ fn targets_of(spot: &Spot, targets: &[Point3<F8>]) -> Point3<F8> {
     target
 }
 
-/// Finishes rays that have arrived, or that have no light left: multiplies the light by their
+/// Finishes rays that have arrived, or that carry no more light: multiplies the light by their
 /// factor.
 #[inline(always)]
 fn settle(light: &mut [Rgb8], paths: &Paths8, lanes: M8) {

@@ -1,19 +1,19 @@
-//! The colours of places of the picture: of one ray each, or of the mean of many.
+//! The colours of points of the picture, each from one ray or from the mean of many.
 
 use super::whitted::Whitted;
 use crate::camera::{Camera, MeshRays, RenderLens, Samples, Sampling};
 use crate::sampler::Place;
 use durer_scene::Rgb;
 
-/// No more rays are sent together.
+/// The most rays that are traced together.
 const TOGETHER: usize = 1 << 16;
 
-/// The rays of a place that follow those which were not enough.
+/// The number of further rays of a point after those that were not enough.
 const MORE: u32 = 8;
 
 impl Whitted<'_> {
-    /// Computes the colours at some places of a picture of the given size, in their order. Returns
-    /// `None` if the work was cancelled.
+    /// Computes the colours of some points of a picture of the given size, in order. Returns `None`
+    /// if the work was cancelled.
     pub(crate) fn look(
         &mut self,
         camera: &Camera,
@@ -28,7 +28,7 @@ impl Whitted<'_> {
         }
     }
 
-    /// The mean of the rays from all faces of each place.
+    /// For each point, the mean of the rays from all its faces.
     fn look_from_faces(
         &mut self,
         camera: &Camera,
@@ -53,7 +53,7 @@ impl Whitted<'_> {
         Some(())
     }
 
-    /// The mean of as many rays of each place as the lens needs.
+    /// For each point, the mean of as many rays as the lens needs.
     fn look_through_lens(
         &mut self,
         camera: &Camera,
@@ -69,7 +69,7 @@ impl Whitted<'_> {
             let mut open: Vec<usize> = (0..places.len()).collect();
             let mut next = 0;
             while !open.is_empty() && next < lens.most() {
-                // All open places have had the same number of rays.
+                // All unfinished points have had the same number of rays.
                 let more = if next < lens.fewest() { (lens.fewest() - next).min(64) } else { MORE };
                 let until = next.saturating_add(more).min(lens.most());
                 some.clear();

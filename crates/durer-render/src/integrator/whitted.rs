@@ -5,7 +5,8 @@
 //! camera's rays have level 1; a reflected or refracted ray has one level more than the ray before
 //! it. A hit of a ray with level `max_trace_level` starts no secondary rays, and neither does one
 //! whose secondary ray would have a weight below `adc_bailout`; black is seen instead. A ray that
-//! passes a surface unbent does not raise the level, so up to 4096 clear sheets may lie in a row.
+//! passes a surface without refraction does not raise the level, so up to 4096 transparent sheets
+//! may lie in a row.
 //!
 //! Rays are traced in bundles: all rays of a bundle have the same level and are in the same media.
 //! Where they hit surfaces with different looks the bundle is split, so that every decision that
@@ -59,17 +60,17 @@ pub(crate) struct Whitted<'w> {
     lamps: Lamps<'w>,
     onward: Onward<'w>,
     pub(crate) counts: RayCounts,
-    /// Tells whether the caller has cancelled the work.
+    /// Whether the caller has cancelled the work.
     stop: Progress<'w>,
-    /// The rays so far, if they are to be explained.
+    /// The record of the rays so far, if requested.
     record: Option<Box<Record>>,
 }
 
 enum Task<'w> {
     /// Traces the rays of a bundle and shades their hits.
     Follow(Bundle<'w>),
-    /// Adds what was seen in a mirror that changes colours. The sums from `first` on belong to it.
-    /// `node` is the mirrored ray's number in a record.
+    /// Adds the colours reflected by a mirror that changes colours. The sums from `first` on belong
+    /// to it. `node` is the mirrored ray's number in a record.
     Show { mirror: &'w Mirror, first: usize, to: Vec<(u32, Rgb)>, node: u32 },
 }
 
@@ -100,8 +101,8 @@ impl<'w> Whitted<'w> {
         Self { stop: *stop, ..self }
     }
 
-    /// Traces the ray through one place of a picture of the given size, and records all rays that
-    /// it leads to. Returns `None` if the work was cancelled.
+    /// Traces the ray through one point of a picture of the given size, and records all rays that
+    /// follow from it. Returns `None` if the work was cancelled.
     pub(crate) fn record(&mut self, camera: &Camera, picture: (u32, u32), place: Place) -> Option<RayTree> {
         self.record = Some(Box::default());
         let mut colours = Vec::new();
@@ -111,9 +112,9 @@ impl<'w> Whitted<'w> {
         Some(record?.finish(*colours.first()?))
     }
 
-    /// Computes the colours that one ray finds at each of some places of a picture of the given
-    /// size, in their order. The rays have these numbers, or 0 without any. Returns `None` if the
-    /// work was cancelled.
+    /// Computes the colours of one ray for each of some points of a picture of the given size, in
+    /// order. The rays have these numbers, or 0 if none are given. Returns `None` if the work was
+    /// cancelled.
     pub(super) fn look_once(
         &mut self,
         camera: &Camera,
@@ -166,8 +167,8 @@ impl<'w> Whitted<'w> {
         Some(())
     }
 
-    /// Starts the camera's rays at some places; their sums begin at `slot`. They form one bundle if
-    /// all start in the same media.
+    /// Starts the camera's rays for some points; their sums begin at `slot`. They form one bundle
+    /// if all start in the same media.
     fn start(
         &mut self,
         camera: &Camera,
@@ -306,7 +307,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// As [`Whitted::follow`], for some groups of a bundle.
+    /// [`Whitted::follow`] for some groups of a bundle.
     fn follow_some(&mut self, (rays, paths): (&[Rays8], &[Paths8]), standing: &BundleState<'w>) {
         self.see((rays, paths), standing);
         let pieces = core::mem::take(&mut self.pieces);
@@ -363,7 +364,7 @@ impl<'w> Whitted<'w> {
         sort(&mut self.pieces);
     }
 
-    /// Adds the light of fog and rainbows before spots, and dims what follows.
+    /// Adds the light of fog and rainbows before shading points, and dims the light behind.
     fn see_through_fog(&mut self, air: Air<'_>, node: u32, spots: &mut [Spot]) {
         if air.is_clear() {
             return;
@@ -382,7 +383,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with a texture, in whose space `inside` is given; `stack` counts the surface's
+    /// Shades points with a texture, in whose space `inside` is given; `stack` counts the surface's
     /// stacks of layers.
     fn paint(&mut self, part: &Part<'_, 'w>, paint: &'w RenderTexture, spots: &mut [Spot], stack: &mut u32) {
         match paint {
@@ -400,7 +401,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with each texture whose fields reach them.
+    /// Shades points with each texture whose fields reach them.
     fn weigh(&mut self, part: &Part<'_, 'w>, weights: &'w Weights, spots: &[Spot], stack: &mut u32) {
         let (mut shown, mut shares) = (Vec::new(), Vec::new());
         for (group, spot) in spots.iter().enumerate() {
@@ -431,7 +432,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with each texture that a pattern shows there.
+    /// Shades points with each texture that a pattern selects there.
     fn blend(
         &mut self,
         part: &Part<'_, 'w>,
@@ -461,7 +462,7 @@ impl<'w> Whitted<'w> {
         }
     }
 
-    /// Shades spots with a stack of layers.
+    /// Shades points with a stack of layers.
     fn shade(&mut self, part: &Part<'_, 'w>, layers: &'w [RenderLayer], spots: &mut [Spot], stack: u32) {
         let (world, isa, standing) = (self.world, self.isa, part.standing);
         self.coats.lay((world, isa), layers, &part.border, standing.draws, spots);
@@ -487,7 +488,7 @@ impl<'w> Whitted<'w> {
     }
 }
 
-/// The light from beyond all surfaces, of the sky through fog and rainbows, for rays that hit nothing.
+/// The light of the background, through fog and rainbows, for rays that hit nothing.
 #[inline(always)]
 fn beyond(world: &World, air: Air<'_>, rays: &Rays8, missed: M8) -> Rgb8 {
     let seen = world.sky.seen(rays.direction, missed);

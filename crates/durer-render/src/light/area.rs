@@ -10,7 +10,7 @@ pub(crate) struct Area {
     sides: [Vec3; 2],
     orient: bool,
     points: Box<[Point]>,
-    /// The parts that an adaptive light may leave undivided; empty if it looks at all points.
+    /// The parts that an adaptive light may leave undivided; empty if all points are tested.
     parts: Box<[Part]>,
 }
 
@@ -87,7 +87,7 @@ impl Area {
         self.points.len()
     }
 
-    /// The parts of an adaptive light; empty if all points are looked at.
+    /// The parts of an adaptive light; empty if all points are tested.
     pub(crate) fn parts(&self) -> &[Part] {
         &self.parts
     }

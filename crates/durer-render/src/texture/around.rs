@@ -2,7 +2,7 @@
 
 use durer_math::{F8, Point3, Vec3};
 
-/// What patterns may know of the surface at eight points, in the space of the world.
+/// The properties of the surface at eight points that patterns may use, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Around8 {
     /// The points.
@@ -34,7 +34,7 @@ impl Around8 {
     }
 }
 
-/// What patterns may know of the surface at a point.
+/// The properties of the surface at a point that patterns may use.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Around<'a> {
     all: &'a Around8,

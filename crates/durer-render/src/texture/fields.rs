@@ -1,5 +1,5 @@
-//! Textures that are mixed by weights: those of a blob's components by the strengths of their
-//! fields, those at a triangle's corners by barycentric coordinates.
+//! Textures mixed by weights: those of a blob's components by the strengths of their fields, those
+//! of a triangle's corners by barycentric coordinates.
 //!
 //! ```text
 //!   the part of a texture at p:  |f_i(p)| / Σ |f_j(p)|
@@ -16,10 +16,10 @@ use durer_scene::{FieldWeights, Fields, Texture};
 
 use super::{Place, RenderTexture};
 
-/// Weights, each with a texture.
+/// Textures with functions that give their weights.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Weights {
-    /// The placement of the space of the weights.
+    /// The placement of the space in which weights are computed.
     place: Place,
     by: FieldWeights,
     /// The index of each component's texture. Components without a texture have the first one.
@@ -100,8 +100,8 @@ impl Weights {
     }
 }
 
-/// The barycentric coordinates of a point of a triangle, times the square of twice its area, from 0
-/// on.
+/// The barycentric coordinates of a point, times the square of twice the triangle's area; negative
+/// ones are replaced by 0.
 fn barycentric([a, b, c]: &[Point3; 3], p: Point3) -> [f64; 3] {
     let n = (*b - *a).cross(*c - *a);
     let part = |from: Point3, to: Point3| (from - p).cross(to - p).dot(n).max(0.0);

@@ -23,7 +23,7 @@ thread_local! {
     static CURRENT: RefCell<(Grains, u32)> = const { RefCell::new((Grains::Own, WAVES)) };
 }
 
-/// The number of waves where a scene says none.
+/// The default number of waves.
 const WAVES: u32 = 10;
 
 /// Runs `build`, in which [`Grains::current`] is `grains` and [`number_of_waves`] is `waves`.

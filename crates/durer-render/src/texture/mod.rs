@@ -111,7 +111,7 @@ impl<T> Blend<T> {
         })
     }
 
-    /// The weight of an entry in what is shown.
+    /// The weight of an entry in the result.
     pub(crate) fn part(&self, shown: Shown, entry: usize) -> f64 {
         match (shown, self) {
             (Shown::One(i), _) if i == entry => 1.0,
@@ -395,9 +395,8 @@ impl RenderTexture {
         })
     }
 
-    /// The normals of the outermost layer at some points, perturbed from those
-    /// around. Patterns of textures
-    /// perturb nothing here.
+    /// The normals of the outermost layer at these points, perturbed from those of `around`.
+    /// Patterns of textures do not perturb them.
     pub(crate) fn top_normal(&self, p: Point3<F8>, around: &Around8, live: M8) -> durer_math::Vec3<F8> {
         let n = around.normals;
         let Self::Layers(coats) = self else { return n };
@@ -409,7 +408,7 @@ impl RenderTexture {
         normal.perturbed(p, &Around8 { normals: unit, ..*around }, live)
     }
 
-    /// The factor of light that passes the texture at some points.
+    /// The transmittance of the texture at these points.
     #[inline(always)]
     pub(crate) fn passed(&self, p: Point3<F8>, around: &Around8, live: M8) -> Rgb8 {
         match self {

@@ -1,6 +1,6 @@
 //! Pictures in space.
 //!
-//! A point has coordinates `(u, v)` in the picture, from its lower left corner; beyond the unit
+//! A point has coordinates `(u, v)` in the picture, from its lower left corner; outside the unit
 //! square the picture is repeated. The middle of the pixel in column `i` and row `j` (from below)
 //! has `u = (i + 1/2)/columns` and `v = (j + 1/2)/rows`. Between the middles,
 //!
@@ -18,11 +18,11 @@ use durer_scene::{Around, Between, Colour, ImageMap, ImageValue, Layout, Rgb, Wr
 use super::warp::unrolled;
 use crate::vector::floor;
 
-/// An [`ImageMap`] to be shown.
+/// An [`ImageMap`] prepared for evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Picture(Arc<ImageMap>);
 
-/// Shown beyond a picture that is there once: nothing.
+/// The colour outside a picture that is not repeated: transparent.
 const CLEAR: Colour = Colour { rgb: Rgb::WHITE, filter: 0.0, transmit: 1.0 };
 
 /// The four pixels around a point of the picture, and their weights along an axis.
@@ -36,7 +36,7 @@ impl Picture {
         Self(Arc::clone(map))
     }
 
-    /// The coordinates of a point in the picture; `None` beyond a picture that is there once.
+    /// The coordinates of a point in the picture; `None` outside a picture that is not repeated.
     fn place(&self, p: Point3) -> Option<(f64, f64)> {
         let around = |around| {
             let wrap = Wrap { around, orientation: Vec3::Z, growth: 0.0 };
@@ -126,7 +126,7 @@ impl Picture {
         Colour::from_terms(terms)
     }
 
-    /// The index of the pixel at a point; 0 beyond a picture that is there once.
+    /// The index of the pixel at a point; 0 outside a picture that is not repeated.
     pub(super) fn index(&self, p: Point3) -> usize {
         let Some((u, v)) = self.place(p) else { return 0 };
         let (columns, rows) = self.size();
@@ -153,7 +153,7 @@ impl Picture {
         Vec3::new(0.5 * (right - left), here - 0.5 * (left + right), 0.0)
     }
 
-    /// The number that the picture gives at a point; 0 beyond a picture that is there once.
+    /// The number that the picture gives at a point; 0 outside a picture that is not repeated.
     pub(super) fn value(&self, p: Point3, value: ImageValue) -> f64 {
         if self.0.once && self.place(p).is_none() {
             return 0.0;

@@ -36,8 +36,8 @@ impl Warps {
     }
 }
 
-/// The placement of what stands before the given maps of the point, without the other maps. Normals are
-/// turned by the placements between warps, but not by warps (a fact of the scene language).
+/// The product of the placements before the given warps, without the warps. Placements between
+/// warps rotate normals, but warps do not (a fact of the scene language).
 pub(crate) fn placement_before(warps: &[PointWarp]) -> Result<Affine, AffineError> {
     warps.iter().rev().try_fold(Affine::IDENTITY, |map, warp| match warp {
         PointWarp::Placed(placement) => map.then(placement.affine()),
@@ -67,7 +67,7 @@ impl Place {
         Self::through(map, warps_of(pattern))
     }
 
-    /// The place of what is placed by `map` and seen through warps.
+    /// The place of a pattern that is placed by `map` and has warps.
     pub(crate) fn through(map: &Affine, warps: &[PointWarp]) -> Self {
         let place = Self::new(map);
         if warps.is_empty() {

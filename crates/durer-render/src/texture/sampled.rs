@@ -24,7 +24,7 @@ struct Sample {
     at: [Coordinate; 3],
 }
 
-/// A coordinate of the point at which a texture is asked.
+/// A coordinate of the point at which a texture is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 enum Coordinate {
     /// One of the numbers so far.

@@ -1,4 +1,4 @@
-//! Solids made of solids: one body each, with its leaves in the order of the text.
+//! CSG solids: each becomes one compound, with its leaves in the order of the text.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use super::{
 };
 use crate::{Object, Operation, Pattern, Placement, Shape, Texture};
 
-/// A body under construction.
+/// A compound under construction.
 struct Work {
     csg: CompoundBuilder,
-    /// Its first primitive: those of its leaves are counted from there.
+    /// Its first primitive number; the leaves' numbers follow.
     first: PrimitiveId,
-    /// The medium of the whole body.
+    /// The medium of the whole solid.
     medium: Option<u32>,
-    /// Some light may pass a leaf.
+    /// Whether light may pass a leaf.
     is_clear: bool,
 }
 
@@ -31,16 +31,16 @@ enum Boolean {
     Csg(Operation),
 }
 
-/// The fate of a part.
+/// How a part is lowered.
 #[derive(Clone, Copy)]
 struct How {
     shown: Shown,
-    /// Its complement is wanted.
+    /// Whether its complement is needed.
     inverse: bool,
 }
 
 impl Lowering {
-    /// Lowers a body. `inner` is what `object` hands down to its parts.
+    /// Lowers a CSG solid. `inner` has the properties that the parts of `object` inherit.
     pub(super) fn compound<'s>(
         &mut self,
         object: &'s Object,
@@ -55,7 +55,7 @@ impl Lowering {
             Context { flags: Flags { inverse: false, open: false, ..flags }, clips: Vec::new(), ..inner };
         let how = How { shown: Shown::All, inverse: around.flags.inverse };
         let part = self.part_of(object, &whole, &mut work, how)?;
-        // What clips the unions around it clips it too; its own clips are in the part.
+        // The clips of the unions around it clip it, too; its own clips are in the part.
         let part = self.cut(part, &around.clips, &mut work)?;
         let is_clipped = !around.clips.is_empty() || !object.clips.is_empty();
         let body = work.csg.build(part).map_err(|e| match e {
@@ -71,7 +71,7 @@ impl Lowering {
         Ok(())
     }
 
-    /// Keeps a body in which rays of the camera may start.
+    /// Records a solid in which camera rays may start.
     fn stand_in(&mut self, body: &Arc<Compound>, medium: u32) {
         let inside = Enclosure::Compound(Arc::clone(body));
         if self.camera.is_empty() || inside.holds_all(&self.camera) == Some(false) {
@@ -94,7 +94,7 @@ impl Lowering {
         Ok(work.csg.intersection(parts))
     }
 
-    /// The part that an object makes, given what is around it.
+    /// The part for an object within its surroundings.
     fn part<'s>(
         &mut self,
         object: &'s Object,
@@ -115,11 +115,10 @@ impl Lowering {
         self.part_of(object, &inner, work, how)
     }
 
-    /// The part that an object makes, given what it hands down.
+    /// The part for an object, with the properties that its own parts inherit.
     ///
-    /// A fact of the scene language: what clips a part clips it after everything around it has been
-    /// turned inside out, so it is never turned itself. Complements are therefore handed down to
-    /// the leaves.
+    /// A fact of the scene language: a part's clips apply after all complements around the part, so
+    /// they are never complemented themselves. Complements are therefore passed down to the leaves.
     fn part_of<'s>(
         &mut self,
         object: &'s Object,
@@ -177,7 +176,7 @@ impl Lowering {
         })
     }
 
-    /// As `parts`, for parts that lend each other their textures.
+    /// The parts of an object with `cutaway_textures`, which share their textures.
     fn cutaway<'s>(
         &mut self,
         (operation, unlent): (Operation, &Arc<Texture>),
@@ -196,7 +195,7 @@ impl Lowering {
         let mut made = Vec::with_capacity(parts.len());
         for (i, part) in parts.iter().enumerate() {
             let lenders = || parts.iter().enumerate().filter(|&(j, _)| j != i);
-            // What is taken away does not hold what is seen.
+            // A subtracted part does not contain the visible points.
             let lenders = lenders().filter(|&(j, _)| operation == Operation::Intersection || j == 0);
             let lent = lent(lenders.map(|(_, lender)| lender), unlent)?;
             let texture = painted(lent.unwrap_or_else(|| Arc::clone(unlent)));
@@ -231,7 +230,7 @@ impl Lowering {
             self.looks_of(object, place.affine(), painted, &context.inside, medium, context.flags)?
                 .within(work.first)
         };
-        // The body was begun before its leaves.
+        // The leaf's number is relative to the compound's first one; `None` if it is too large.
         let leaf = leaf.ok_or(LowerErrorKind::TooMany)?;
         let mut part = None;
         let shown = if object.flags.open && shown == Shown::All { Shown::Wall } else { shown };
@@ -274,7 +273,7 @@ fn lent<'s>(
 /// The textures of the leaves that hold a point.
 struct Lent<'d> {
     textures: Vec<Arc<Texture>>,
-    /// Whether it is known how often each one counts.
+    /// Whether the weight of each one is known.
     is_sure: bool,
     default: &'d Arc<Texture>,
 }
@@ -286,8 +285,9 @@ impl Lent<'_> {
         )
     }
 
-    /// Adds those of an object that holds it, or does not if `outside`. `around` is what it
-    /// inherits, `place` leads from the space around it to that of the textures.
+    /// Adds the textures of an object if it holds the point (or does not, if `outside`). `around`
+    /// is the inherited texture; `place` maps from the space around the object to that of the
+    /// textures.
     fn gather(
         &mut self,
         object: &Object,
@@ -315,7 +315,7 @@ impl Lent<'_> {
         };
         let inner = join(&object.placement, place)?;
         let any = (operation == Operation::Merge) != outside;
-        // Who is in a union and has no texture shows the default one.
+        // A part of a union without a texture has the default one.
         let around = if any { Some(moved.unwrap_or_else(|| Arc::clone(self.default))) } else { moved };
         let first = self.textures.len();
         for (i, part) in parts.iter().enumerate() {

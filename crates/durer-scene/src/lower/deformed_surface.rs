@@ -16,7 +16,7 @@ pub(super) enum Made {
     Nothing(String),
 }
 
-/// The deformed surface; `None` if what is deformed is a solid of formulas.
+/// The deformed surface; `None` for a solid of formulas.
 pub(super) fn made(deform: &Deform) -> Result<Option<Made>> {
     let mut steps = Vec::new();
     let source = match source(deform, &mut steps)? {

@@ -132,9 +132,8 @@ impl Scene {
         self.lower_for(Purpose::Queries)
     }
 
-    /// As [`Self::lower`], for pictures: a union within a merge, an intersection or a difference
-    /// keeps the faces that lie inside its parts, as POV-Ray draws it. They show through clear
-    /// textures.
+    /// [`Self::lower`] for pictures: a union within a merge, an intersection or a difference keeps
+    /// the faces that lie inside its parts, as in POV-Ray. They show through transparent textures.
     pub fn lower_for_pictures(&self) -> Result<Lowered, LowerError> {
         self.lower_for(Purpose::Pictures)
     }
@@ -184,8 +183,8 @@ impl Lowered {
         Some(media)
     }
 
-    /// As [`Lowered::media_at`] for all points of a box; `None` unless they are certainly in the
-    /// same solids.
+    /// [`Lowered::media_at`] for all points of a box; `None` unless they are certainly in the same
+    /// solids.
     pub fn media_in(&self, region: &Aabb) -> Option<Vec<u32>> {
         let mut media = Vec::new();
         for (medium, solid) in &self.around_camera {

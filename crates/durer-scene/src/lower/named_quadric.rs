@@ -37,7 +37,7 @@ trait Visitor {
 
     fn visit<W: Wall + 'static>(self, whole: Axial<W>) -> Result<Self::Output>;
 
-    /// As [`Visitor::visit`], after a check of the semi-axes.
+    /// [`Visitor::visit`], after a check of the semi-axes.
     fn made<W: Wall + 'static>(self, whole: std::result::Result<Axial<W>, AxialError>) -> Result<Self::Output>
     where
         Self: Sized,

@@ -1,4 +1,4 @@
-//! From each shape's numbers to its surface.
+//! Lowering of shapes: builds the surface of each shape from its numbers.
 
 use std::fmt::Display;
 
@@ -21,7 +21,8 @@ use crate::{Container, Mesh, Object, Shape, Spline, Sweep};
 
 /// The result of lowering a shape.
 pub(super) enum Built {
-    /// It is in the geometry; where it is solid and asked for, with the test for its inside.
+    /// It is in the geometry. If it is solid and the caller asks for it, the test for its inside is
+    /// returned.
     Done(Option<Enclosure>),
     /// It has no points, for this reason.
     Nothing(String),
@@ -33,12 +34,12 @@ pub(super) fn shape_error(error: impl Display) -> LowerErrorKind {
     LowerErrorKind::Shape(error.to_string())
 }
 
-/// Builds the surface of an object that is no union, placed in the world by `place`.
+/// Builds the surface of an object that is not a union, placed in the world by `place`.
 pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Target<'_>) -> Result<Built> {
     let map = (*place != Affine::IDENTITY).then_some(place);
     match &object.shape {
         &Shape::Sphere { centre, radius } => {
-            // A negative radius is drawn as its size.
+            // The sign of a radius is ignored.
             let radius = radius.abs();
             match folded(map, |m| {
                 Some((fold_transform::point(m, centre)?, fold_transform::length(m, radius)?))
@@ -167,7 +168,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
         }
         &Shape::Lemon { base, base_radius, apex, apex_radius, inner_radius } => {
             let axis = apex - base;
-            // A length beyond the range of f64 is refused as such.
+            // A length beyond the range of f64 is an error.
             let height = axis.length();
             let solid = SurfaceOfRevolution::lemon(height, base_radius, apex_radius, inner_radius)
                 .map_err(shape_error)?;
@@ -267,7 +268,7 @@ fn turned(solid: SurfaceOfRevolution, open: bool, map: Option<&Affine>, target: 
     target.add_rare(if open { solid.without_ends() } else { solid }, map);
 }
 
-/// Adds a sheet over the unit square; in a solid all that lies under it, and under its water level.
+/// Adds a sheet over the unit square; for a solid, everything below it, also below its water level.
 fn sheet<H: Heights + 'static>(
     sheet: &Sheet<H>,
     map: Option<&Affine>,
@@ -291,19 +292,19 @@ fn sheet<H: Heights + 'static>(
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
-/// Adds a solid that has an array of its own.
+/// Adds a solid whose type has an arena of its own.
 fn add<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
     target.contain(&solid, map);
     target.add(solid, map);
 }
 
-/// Adds a solid whose ends are its own: it has none that could be left open.
+/// Adds a solid that has no ends that could be left open.
 fn add_closed<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, solid: S, map: Option<&Affine>) {
     target.contain(&solid, map);
     target.add_rare(solid, map);
 }
 
-/// The flat ones.
+/// Builds flat shapes.
 fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<Built> {
     match shape {
         &Shape::Box { a, b } => {
@@ -416,14 +417,14 @@ fn add_flat<S: Algebraic + Clone + 'static>(target: &mut Target<'_>, surface: S,
 const DEGENERATE: &str = "triangle: its corners lie on one line, so it is left out";
 const TWO_SIDED: &str = "smooth_triangle: its normals do not all look to one side of it, so it is left out";
 
-/// Whether the normals of a smooth triangle look to the side from which its corners go round
-/// counterclockwise; `None` if they do not all look to one side, before or after it is placed (a
-/// shear turns a plane's normal and others apart). The scene language knows no such triangles, but
-/// for those of meshes.
+/// Whether the normals of a smooth triangle point to the side from which its corners are
+/// counterclockwise; `None` if they do not all point to one side, before or after placement (a
+/// shear rotates a plane's normal and others differently). The scene language has no such triangles
+/// except in meshes.
 fn front(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3], map: Option<&Affine>) -> Option<bool> {
     let n = (b - a).cross(c - a);
     if n == Vec3::ZERO {
-        // Its corners tell that it is none.
+        // Its corners are refused later.
         return Some(true);
     }
     let side = |n: Vec3, normals: [Vec3; 3]| {
@@ -437,14 +438,14 @@ fn front(&[a, b, c]: &[Point3; 3], normals: &[Vec3; 3], map: Option<&Affine>) ->
     side(placed(n), normals.map(placed))
 }
 
-/// The numbers that the placement gives, if it can be worked into them; those of no placement are
+/// The numbers of a shape after its placement, if they can express it; without a placement they are
 /// the text's own.
 fn folded<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
     numbers(map.unwrap_or(&Affine::IDENTITY))
 }
 
-/// The same for surfaces whose sides are told by the order of their corners: a mirror would
-/// exchange them.
+/// [`folded`] for surfaces whose sides depend on the order of their corners: a mirror image would
+/// swap them.
 fn kept_side<T>(map: Option<&Affine>, numbers: impl Fn(&Affine) -> Option<T>) -> Option<T> {
     if map.is_some_and(Affine::determinant_is_negative) { None } else { folded(map, numbers) }
 }
@@ -497,8 +498,7 @@ pub(super) fn mesh(data: &Mesh) -> Result<durer_surfaces::Mesh> {
 /// A number for each corner of each face.
 type Triples = Vec<[u32; 3]>;
 
-/// The texture coordinates of all faces; those without any get the ones that faces have where no
-/// face has any.
+/// The texture coordinates of all faces. Faces without any get the default ones.
 fn texture_coordinates(data: &Mesh) -> Result<(Vec<[f64; 2]>, Triples)> {
     if data.uv_faces.iter().all(Option::is_none) {
         return Ok((Vec::new(), Vec::new()));
@@ -519,7 +519,7 @@ fn texture_coordinates(data: &Mesh) -> Result<(Vec<[f64; 2]>, Triples)> {
     Ok((uv, faces))
 }
 
-/// The region of a solid that clips, placed in the world by its own placement and then by `around`.
+/// The region of a clipping solid, placed in the world by its own placement and then by `around`.
 pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
     let region = match &clip.shape {
         &Shape::Sphere { centre, radius } => {

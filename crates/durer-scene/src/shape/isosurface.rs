@@ -14,7 +14,7 @@ pub struct Isosurface {
     pub function: Arc<Formula>,
     /// The value.
     pub threshold: f64,
-    /// What holds the surface. Where it cuts the inside it is closed by its own face, unless the
-    /// object is open.
+    /// The container. Where it cuts the inside, its own face closes the solid, unless the object is
+    /// open.
     pub container: Container,
 }

@@ -31,8 +31,7 @@ use crate::{
     SweepSpline, Terrain,
 };
 
-/// A surface in its object's own frame, not yet checked: lowering builds it and names what is
-/// wrong.
+/// A surface in its object's own frame, not yet checked: lowering builds it or reports an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// All points at `radius` from `centre`.
@@ -62,11 +61,11 @@ pub enum Shape {
     Cone {
         /// The middle of one end.
         base: Point3,
-        /// The radius there.
+        /// The radius at `base`.
         base_radius: f64,
         /// The middle of the other end.
         cap: Point3,
-        /// The radius there.
+        /// The radius at `cap`.
         cap_radius: f64,
     },
     /// The plane of points `p` with `p . normal = distance |normal|`; its inside is behind the
@@ -144,11 +143,11 @@ pub enum Shape {
     PathSweep(PathSweep),
     /// All balls whose centres and radii follow a spline of these: centre and radius each.
     SphereSweep(SweepSpline, Arc<[[f64; 4]]>),
-    /// A smooth curve through these points, a radius and a height each, turned about the y axis;
-    /// the first and the last point only tell slopes. Closed by flat ends unless the object is
+    /// A smooth curve through these points, a radius and a height each, rotated about the y axis;
+    /// the first and the last point only give slopes. Closed by flat ends unless the object is
     /// open.
     Sor(Arc<[[f64; 2]]>),
-    /// A spline through points, a radius and a height each, turned about the y axis.
+    /// A spline through points, a radius and a height each, rotated about the y axis.
     Lathe(LatheSpline, Arc<[[f64; 2]]>),
     /// A Bezier patch: a surface over the unit square.
     Patch(Arc<Patch>),
@@ -173,11 +172,11 @@ pub enum Shape {
     Lemon {
         /// The middle of one end.
         base: Point3,
-        /// The radius there.
+        /// The radius at `base`.
         base_radius: f64,
         /// The middle of the other end.
         apex: Point3,
-        /// The radius there.
+        /// The radius at `apex`.
         apex_radius: f64,
         /// The radius of the arc from one end to the other.
         inner_radius: f64,
@@ -276,7 +275,7 @@ impl Shape {
     }
 }
 
-/// How solids make a solid.
+/// The set operation that combines solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// The union of the parts, without surfaces inside.

@@ -12,8 +12,8 @@ use crate::Container;
 pub struct Parametric {
     /// The functions of x, y and z, of two numbers each.
     pub functions: [Arc<Formula>; 3],
-    /// From where to where u goes, and v.
+    /// The ranges of u and of v.
     pub domain: [[f64; 2]; 2],
-    /// What cuts the surface off. Without it the surface must be bounded.
+    /// The container that cuts the surface off. Without it the surface must be bounded.
     pub container: Option<Container>,
 }

@@ -3,7 +3,7 @@
 /// The control net of a Bezier patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// How many points a row has, and how many rows there are.
+    /// The number of points in a row, and the number of rows.
     pub size: [usize; 2],
     /// The points row by row, and their weights: `[x, y, z, w]`. The parameter u runs along a row.
     pub points: Vec<[f64; 4]>,
@@ -14,7 +14,7 @@ pub struct Patch {
 /// The control net of a Bezier patch over a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangularPatch {
-    /// How many points a side has: the degree and one.
+    /// The number of points of a side: the degree plus one.
     pub side: usize,
     /// The points row by row, each row one point shorter, and their weights: `[x, y, z, w]`. The
     /// parameter u runs along a row.

@@ -4,11 +4,10 @@
 /// object is open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
-    /// Closed outlines, `[x, z]` for each point. Inside is what they go round an odd number of
-    /// times.
+    /// Closed outlines, `[x, z]` for each point. The inside has an odd winding number.
     pub outlines: Vec<Vec<[f64; 2]>>,
-    /// How an outline goes through its points; curves have all the points that their spline asks
-    /// for, the first one of the curve again as its last.
+    /// How an outline goes through its points. Curves have all the points that their spline needs,
+    /// and repeat the first point of the curve as its last.
     pub spline: Spline,
     /// The heights of both ends, in any order.
     pub heights: [f64; 2],
@@ -19,17 +18,17 @@ pub struct Prism {
 /// How an outline goes through its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spline {
-    /// Straight from one to the next, and from the last to the first.
+    /// By straight lines, also from the last point to the first.
     Linear,
-    /// On a curve.
+    /// By a curve.
     Curved(durer_surfaces::Spline),
 }
 
 /// How an outline changes along its sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sweep {
-    /// Not at all.
+    /// It does not change.
     Linear,
-    /// At the height y it is y times as large.
+    /// At the height y it is scaled by y.
     Conic,
 }

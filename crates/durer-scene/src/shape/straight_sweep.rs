@@ -8,8 +8,7 @@ use crate::Spline;
 /// A profile that moves along a straight path, closed by flat caps unless the object is open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightSweep {
-    /// Closed outlines in the plane across the path. Inside is what they go round an odd number of
-    /// times.
+    /// Closed outlines in the plane across the path. The inside has an odd winding number.
     pub outlines: Vec<Vec<[f64; 2]>>,
     /// How an outline goes through its points, as in [`Prism::spline`](crate::Prism::spline).
     pub spline: Spline,

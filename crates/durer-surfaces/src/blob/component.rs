@@ -8,8 +8,8 @@
 //!
 //! Along a ray `q = m + v (2 b + n v)` with `v = s - at`, relative to the component's own closest
 //! approach. All of these are at most about one where `q < 1`, so nothing cancels, however small
-//! the component is beside the blob. A cylinder has three such segments, which meet where `w_z` is
-//! 0 or `l`.
+//! the component is relative to the blob. A cylinder has three such segments, which meet where
+//! `w_z` is 0 or `l`.
 
 use super::BlobShape;
 use super::packet::Field;
@@ -28,7 +28,7 @@ pub(super) const REACH: f64 = 2.0;
 /// A component in units of the blob's frame.
 #[derive(Clone, Debug)]
 pub(super) struct Component {
-    /// `W`.
+    /// The rows of `W`.
     rows: [Vec3; 3],
     /// The factor if `W` is a multiple of the identity; else zero.
     plain: f64,
@@ -64,22 +64,23 @@ pub(super) struct FieldSegment {
     pub(super) size: f64,
     /// An upper bound of `|1 - q|` at the computed ends of the field.
     pub(super) seam: f64,
-    /// The rate of `w_z` at an end where it meets another segment of its component; else zero.
+    /// The magnitude of the derivative of `w_z` by `s` at each end that joins another segment of
+    /// its component; else zero.
     pub(super) joint: [f64; 2],
-    /// The rate of `w`.
+    /// A bound on the magnitude of the derivative of `w` by `s`.
     pub(super) speed: f64,
 }
 
 /// The part of a ray on which a component has one of its segments.
 struct Segment {
-    /// The height of the point of the axis from which distances are measured; without one, they are
-    /// measured from the axis.
+    /// The height of the axis point from which distances are measured; `None` if they are measured
+    /// from the axis.
     lift: Option<f64>,
     low: f64,
     high: f64,
-    /// See [`Piece::joint`].
+    /// See [`FieldSegment::joint`].
     joint: [f64; 2],
-    /// The error of `w_z`, where ends depend on it.
+    /// The error of `w_z` at ends that depend on it.
     doubt: f64,
 }
 
@@ -111,7 +112,7 @@ impl Component {
             BlobShape::Segment(a, b) => (a, b - a),
         };
         let unmoved = it.place == Affine::IDENTITY;
-        // Its numbers over the radius.
+        // The factor that divides lengths by the radius.
         let factor = scale2(1.0 / it.radius, scale);
         let (inverse, slack) = (it.place.inverse_linear(), it.place.inverse_error());
         let mut rows = inverse.map(|row| Vec3::from(row) * factor);
@@ -201,8 +202,8 @@ impl Component {
             + REACH * self.rate_error(ray)
             + (height.abs() + REACH * rate.abs() + self.length) * (16.0 * U);
         let (low, high) = (-height / rate, (self.length - height) / rate);
-        // Where the ray passes the ends of the axis, in its order; it may be between them, or
-        // beyond one, everywhere.
+        // The parameters at which the ray passes the ends of the axis, in order; the ray may be
+        // between them, or beyond one, everywhere.
         let within = |s: f64| s.clamp(-REACH, REACH);
         let (enter, leave) = if rate == 0.0 {
             match height {
@@ -268,7 +269,7 @@ impl Component {
         let y = Vec3::new(at.mul_add(ray.d.x, r.x), at.mul_add(ray.d.y, r.y), at.mul_add(ray.d.z, r.z));
         let w = placed(self.turned(y));
         let (m, b) = (w.dot(w), w.dot(a));
-        // A miss where the errors are far below one, as they mostly are.
+        // This is a miss if the errors are far below one, as they mostly are.
         let (e_w, e_a) = (self.error_at(ray, y.max_abs(), at), self.rate_error(ray));
         let top = if n > 0.0 { (-b / n).max(low - at).min(high - at) } else { 0.0 };
         let most = 1.0 - m - top * (2.0 * b + n * top);
@@ -376,8 +377,8 @@ impl FieldSegment {
         c[4] = sq.mul_add(q2, c[4]);
     }
 
-    /// A bound on the error between `border` and `s` beyond it if the segment is not switched at
-    /// the border where it begins or ends; and a bound on the growth of that error.
+    /// A bound on the error between `border` and `s` beyond it, if the segment is used past the
+    /// border where it begins or ends; and a bound on the growth of that error.
     #[inline(always)]
     pub(super) fn overrun(&self, border: f64, s: f64) -> (f64, f64) {
         let strength = self.strength.abs();

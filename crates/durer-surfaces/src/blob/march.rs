@@ -42,7 +42,7 @@ impl Along {
     }
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
     /// Nodes not yet opened, with their entries.

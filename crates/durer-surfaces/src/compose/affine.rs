@@ -1,8 +1,8 @@
 //! A surface placed by an affine map.
 //!
 //! The exact surface is `{ c + L x : x in S }`, with the surface's own numbers and the map's stored
-//! ones. Rays go through the inverse, whose rounding is charged to every bracket; points come back
-//! through `L` itself.
+//! ones. Rays go through the inverse, and every bracket includes its rounding; points are mapped
+//! back by `L` itself.
 
 use crate::packet::FilterSource;
 use crate::point::least_step;
@@ -13,7 +13,7 @@ use crate::{
 };
 use durer_math::{Aabb, Affine, Interval, Isa, U, Vec3};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const TINY: f64 = f64::MIN_POSITIVE;
 
 /// The surface `S` placed by an invertible affine map.
@@ -156,12 +156,12 @@ fn inner_image(map: &Affine, inner: &Aabb) -> Aabb {
 }
 
 impl LocalRay<'_> {
-    /// The point that `resolve` finds on the ray in the frame of a surface, as `map` places that
-    /// surface, with its bounds.
+    /// The image under `map` of the point that `resolve` finds on the ray in the surface's frame,
+    /// with its bounds.
     ///
-    /// Near a tip the frame may tell a point from the tip where the world's coordinates cannot. Rays
-    /// then leave from the tip, not from the tangent plane: the point is resolved once more, on a
-    /// ray that is known no better than those coordinates.
+    /// Near a tip the frame may distinguish a point from the tip where the world's coordinates
+    /// cannot. Rays then start from the tip, not from the tangent plane: the point is resolved
+    /// again, on a ray with the error of those coordinates.
     pub fn resolve_through(
         &self,
         map: &Affine,
@@ -182,8 +182,8 @@ impl LocalRay<'_> {
     }
 }
 
-/// A point of the surface as the map places it, with its bounds, and how far in the surface's frame
-/// a tip may be: zero where the tangent plane proves the start.
+/// The image of a point of the surface, with its bounds, and the distance, in the surface's frame,
+/// within which a tip may be: zero where the tangent plane proves the start.
 #[inline(never)]
 fn place(map: &Affine, local: &SurfacePoint) -> (SurfacePoint, f64) {
     Isa::detect().run(

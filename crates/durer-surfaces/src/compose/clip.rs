@@ -1,11 +1,11 @@
-//! A surface clipped by solids: what of it lies in a region.
+//! A surface clipped by solids: the part of it that lies in a region.
 //!
-//! A root stays if it is in the closed region. Where an enclosure of the root straddles the
-//! region's border, the answer is the exact sign of the border's polynomial at the root of the
-//! surface's, so that the cut neither leaks nor doubles.
+//! A root stays if it is in the closed region. Where a bracket of the root straddles the region's
+//! border, the exact sign of the border's polynomial at the root of the surface's polynomial
+//! decides, so that the cut has neither gaps nor double hits.
 //!
-//! The result is a sheet: clipping removes surface and does not cap what it opens. It has no
-//! inside, also where the surface had one.
+//! The result is a sheet: clipping removes surface and closes no openings. It has no inside, even
+//! if the surface had one.
 
 use super::region::{FaceSet, Region};
 use crate::faces::boolean_faces::{Faces, QuadricFaces};
@@ -28,8 +28,8 @@ pub trait Algebraic: Accelerate {
         None
     }
 
-    /// The same in double-doubles with their errors, which tell the sign of most of what f64 cannot
-    /// tell, for a small part of the steps. Not all surfaces know it.
+    /// The polynomial in double-doubles with their errors. They decide most signs that f64 leaves
+    /// open, at a small part of the cost of exact numbers. Not all surfaces provide it.
     fn wide_polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<EFloat<Dd>>> {
         None
     }
@@ -41,8 +41,8 @@ pub trait Algebraic: Accelerate {
         Some(sign_at_root(&p, name(&p, root), q))
     }
 
-    /// A box of what of the surface, placed by a map, lies in all of some regions; of more, if that
-    /// is not known.
+    /// A box that holds the part of the surface, placed by a map, in the intersection of some
+    /// regions. It may be larger.
     fn bounds_among(&self, _regions: &[Region], map: Option<&Affine>) -> Aabb {
         map.map_or_else(|| self.bounds(), |map| self.bounds_through(map))
     }
@@ -58,7 +58,7 @@ pub(crate) fn exact_along(
     Some(shape.exact(face as usize).along(&ray.in_ring_from(frame.centre, frame.scale)?))
 }
 
-/// The same in double-doubles.
+/// The polynomial of a face along a ray, in double-doubles.
 pub(crate) fn wide_along(
     shape: &dyn Faces,
     frame: Frame,
@@ -152,17 +152,17 @@ fn in_childs_parameter(p: &Quadratic<Dyadic>, step: f64, k: i32) -> Quadratic<Dy
 pub struct Clip<S> {
     surface: S,
     regions: Vec<Region>,
-    /// For each region, and each of the surface's first faces, the faces of the region on which all
-    /// of that lies: looked for when a root is first in doubt. Where a body ends in the very plane
-    /// that cuts it, each ray that meets it there would ask in exact arithmetic.
+    /// For each region and each of the surface's first faces, the faces of the region that contain
+    /// all of that face. They are computed when a root is first in doubt. Without them, where a
+    /// solid ends in the very plane that cuts it, each ray there would need exact arithmetic.
     around: Vec<[OnceLock<FaceSet>; REMEMBERED]>,
 }
 
-/// Faces of higher numbers, those of meshes, are asked about ray by ray.
+/// Faces with higher numbers, as meshes have, are decided anew for each ray.
 const REMEMBERED: usize = 8;
 
 impl<S: Algebraic> Clip<S> {
-    /// The part of `surface` in all `regions`, their borders included.
+    /// The part of `surface` in the intersection of `regions`, borders included.
     pub fn new(surface: S, regions: Vec<Region>) -> Self {
         let around = regions.iter().map(|_| Default::default()).collect();
         Self { surface, regions, around }
@@ -173,7 +173,7 @@ impl<S: Algebraic> Clip<S> {
         &self.surface
     }
 
-    /// The part of a ray that holds all that is kept; `None` if nothing is.
+    /// The range of a ray in which a crossing may be kept; `None` if it is empty.
     #[inline(always)]
     fn range(&self, ray: &LocalRay<'_>) -> Option<(f64, f64)> {
         let mut bounds = Aabb::UNBOUNDED;
@@ -209,15 +209,15 @@ impl<S: Algebraic> Clip<S> {
             return keeps;
         }
         let decided = region.holds_exactly(ray, (doubtful, on), |q| self.surface.sign_at_root(ray, root, q));
-        // A ray that is known within errors only may be on the border: then it is, and closed sets
-        // hold their border.
+        // A ray that is known only within errors may be on the border: it counts as on it, and
+        // closed sets contain their border.
         decided.unwrap_or(true)
     }
 }
 
 impl<S: Algebraic> Clip<S> {
-    /// The same where the face is a plane and double-doubles suffice: faces that are in one plane
-    /// but for the rounding of a decimal number, mostly.
+    /// [`Clip::keeps_exactly`] for a plane face where double-doubles suffice: mostly faces that
+    /// would coincide but for the rounding of a decimal number.
     fn keeps_widely(
         &self,
         region: &Region,
@@ -234,25 +234,25 @@ impl<S: Algebraic> Clip<S> {
     }
 }
 
-/// Which root of `p` a root is.
+/// Which of the roots of `p` a root is.
 fn name(p: &Quadratic<Dyadic>, root: &Root) -> Crossing {
     match (root.sign, exact_sign(&p.discriminant()), exact_sign(&p.a)) {
         (_, Ordering::Equal, Ordering::Greater) => Crossing::TouchOutside,
         (_, Ordering::Equal, Ordering::Less) => Crossing::TouchInside,
         (-1, ..) => Crossing::In,
         (1, ..) => Crossing::Out,
-        // A rim that the ray touches: the face says in its tag what it does there.
+        // A rim that the ray touches: the tag says whether the ray enters or leaves.
         _ if root.tag[0] > 0.0 => Crossing::Out,
         _ => Crossing::In,
     }
 }
 
-/// Passes on the roots that are kept.
+/// A sink that passes on the kept roots.
 struct Keeping<'a, 'r, S, K: ?Sized> {
     clip: &'a Clip<S>,
     ray: &'a LocalRay<'r>,
     sink: &'a mut K,
-    /// Points elsewhere are in none of the regions' boxes.
+    /// Points outside this range are in none of the regions' boxes.
     range: (f64, f64),
 }
 

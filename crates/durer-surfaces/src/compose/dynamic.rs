@@ -1,5 +1,5 @@
-//! A surface behind a pointer: for the rarer kinds and combinations, which are not worth an array
-//! (and its code) of their own.
+//! A surface behind a pointer, for rare kinds and combinations that do not justify an arena of
+//! their own, with its code.
 
 use crate::compose::clip::Algebraic;
 use crate::compose::region::Region;
@@ -13,7 +13,7 @@ use durer_math::{Aabb, Affine, Dd, Dyadic, EFloat, Isa, RaySide, Shaft};
 use durer_roots::quadratic::Quadratic;
 use std::sync::Arc;
 
-/// Any surface. What it answers is what the surface within answers.
+/// A surface of any type, with the same answers as the surface it wraps.
 ///
 /// ```
 /// use durer_math::{Affine, Point3, Vec3};
@@ -30,7 +30,7 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct DynSurface {
     surface: Arc<dyn Dynamic>,
-    /// The code within is entered through the feature door too.
+    /// The instruction set with which the wrapped surface's methods run.
     isa: Isa,
 }
 
@@ -50,7 +50,7 @@ impl<S: Algebraic> Dynamic for S {
     }
 
     fn part_roots_dyn(&self, isa: Isa, part: PartId, ray: &LocalRay<'_>, sink: &mut dyn Sink) {
-        // One copy of the code is enough where all is one part.
+        // A surface of one part needs no second copy of the code.
         if !self.is_in_parts() {
             return self.roots_dyn(isa, ray, sink);
         }
@@ -165,7 +165,7 @@ impl Algebraic for DynSurface {
     }
 }
 
-/// Whether both are the same surface in memory: the numbers within are not compared.
+/// Equal if both are the same surface in memory; their numbers are not compared.
 impl PartialEq for DynSurface {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)

@@ -36,8 +36,8 @@ pub struct Region {
     map: Option<Affine>,
     inverse: bool,
     bounds: Aabb,
-    /// Boxes that hold the region before it is placed, and the closure of its complement; of
-    /// half-spaces they have one end.
+    /// Boxes that hold the region before it is placed, and the closure of its complement; for
+    /// half-spaces they are bounded on one side only.
     slabs: [Aabb; 2],
 }
 
@@ -182,8 +182,8 @@ pub enum RegionError {
 }
 
 impl Region {
-    /// The inside of a solid with quadric faces, its boundary included; of a sheet, what its walls
-    /// and its cut-offs enclose.
+    /// The inside of a solid with quadric faces, its boundary included; for a sheet, the set that
+    /// its walls and its ends enclose.
     pub fn solid<S: QuadricFaces + 'static>(shape: S) -> Self {
         let bounds = shape.bounds();
         let slabs = [bounds, Aabb::UNBOUNDED];
@@ -215,7 +215,7 @@ impl Region {
     #[must_use]
     pub fn placed(mut self, map: Affine) -> Self {
         self.bounds = if self.inverse { Aabb::UNBOUNDED } else { map.bounds(&self.bounds) };
-        // A second map is composed in f64, as transforms in a text are.
+        // A second map is composed in f64, like the transforms of a scene file.
         self.map = Some(match self.map {
             Some(first) => first.then(&map).unwrap_or(map),
             None => map,
@@ -237,13 +237,13 @@ impl Region {
         self.bounds
     }
 
-    /// A box that holds the region where it is seen as a surface is that was placed by the same
-    /// map; also one without all of its ends.
+    /// A box that holds the region in the frame of a surface that was placed by `map`. It may be
+    /// unbounded on some sides.
     pub(super) fn slab(&self, map: Option<&Affine>) -> Aabb {
         if self.map.as_ref() == map { self.slabs[0] } else { Aabb::UNBOUNDED }
     }
 
-    /// The part of a surface that is in the region.
+    /// The packet filter of the part of a surface in the region.
     pub(super) fn cut(&self, surface: FilterSource) -> FilterSource {
         let region = self.faces.sketch();
         let region = match &self.map {
@@ -253,8 +253,8 @@ impl Region {
         if self.inverse { surface.without(region) } else { surface.within(region) }
     }
 
-    /// Whether the closed region holds a root, if that can be told from its bracket; else the faces
-    /// that do not tell.
+    /// Whether the closed region holds a root, if the root's bracket decides that; else the
+    /// undecided faces.
     pub(super) fn holds(&self, ray: &LocalRay<'_>, root: &Root) -> Result<bool, FaceSet> {
         Isa::detect().run(
             #[inline(always)]
@@ -288,8 +288,9 @@ impl Region {
         if doubtful.is_empty() { Ok(!self.inverse) } else { Err(doubtful) }
     }
 
-    /// The same, exactly, for a root that is inside all faces but the doubtful ones and those of
-    /// which it is known that it lies on them (`on`); `sign` tells that of a polynomial at it.
+    /// Decides exactly whether the region holds a root that is inside all faces but the doubtful
+    /// ones and those on which it is known to lie (`on`). `sign` returns the sign of a polynomial
+    /// at the root.
     pub(super) fn holds_exactly(
         &self,
         ray: &LocalRay<'_>,
@@ -305,7 +306,7 @@ impl Region {
         Some(if self.inverse { worst.is_ge() } else { worst.is_le() })
     }
 
-    /// The same in double-doubles; `None` also where one of the signs is not certain.
+    /// [`Region::holds_exactly`] in double-doubles; `None` also if one of the signs is uncertain.
     pub(super) fn holds_widely(
         &self,
         ray: &LocalRay<'_>,
@@ -331,7 +332,7 @@ impl Region {
         self.polynomials_in(ray, faces, |i| self.faces.exact(i))
     }
 
-    /// The same in any ring that can hold the ray.
+    /// [`Region::polynomials`] in any ring that can hold the ray.
     fn polynomials_in<T: Ring>(
         &self,
         ray: &LocalRay<'_>,
@@ -361,15 +362,16 @@ impl Region {
         )
     }
 
-    /// The faces on which all of a face of a surface lies: those whose polynomial is a multiple of
-    /// its own. `face` tells the latter along a ray.
+    /// The faces that contain all of a surface's face: those whose polynomial is a multiple of its
+    /// own, which `face` returns along a ray.
     ///
     /// Let `f` and `g` be the two, of degree two at most, and `p` a point where `f` does not
-    /// vanish. Where they are proportional along a line through `p`, `h = g(p) f - f(p) g` vanishes
-    /// on it. In its direction `v` the terms of `h(p + s v)` of first and second degree are a
-    /// linear and a quadratic form of `v`; the six `v` below leave neither of them a coefficient.
+    /// vanish. If they are proportional along a line through `p`, `h = g(p) f - f(p) g` vanishes on
+    /// it. The first and second degree terms of `h(p + s v)` are a linear and a quadratic form of
+    /// the direction `v`; if both vanish for the six `v` below, all their coefficients are zero.
     pub(super) fn faces_around(&self, face: impl Fn(&LocalRay<'_>) -> Option<Quadratic<Dyadic>>) -> FaceSet {
-        /// Of few bits, and on no surface that anybody would write down.
+        /// The point `p`: its coordinates have few bits, and it is unlikely to lie on a surface of
+        /// a scene.
         const P: Point3 = Point3::new(179.0 / 256.0, -347.0 / 256.0, 89.0 / 256.0);
         const LINES: [Vec3; 6] = [
             Vec3::X,
@@ -399,17 +401,17 @@ impl Region {
     }
 }
 
-/// No shape has more faces.
+/// The largest number of faces of a shape.
 const MOST_FACES: usize = 8;
 
-/// Faces of a region, by bits.
+/// A set of faces of a region, one bit each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FaceSet(u8);
 
 impl FaceSet {
     pub(super) const NONE: Self = Self(0);
 
-    /// The first `n`.
+    /// The first `n` faces.
     fn first(n: usize) -> Self {
         debug_assert!(n <= MOST_FACES);
         Self(((1_u16 << n) - 1) as u8)
@@ -425,7 +427,7 @@ impl FaceSet {
         self.0 == 0
     }
 
-    /// Those of these that are in `o`, and those that are not.
+    /// The faces of this set that are in `o`, and those that are not.
     pub(super) fn split(self, o: Self) -> (Self, Self) {
         (Self(self.0 & o.0), Self(self.0 & !o.0))
     }

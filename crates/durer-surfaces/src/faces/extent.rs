@@ -1,4 +1,4 @@
-//! How far a quadric solid reaches between two planes across an axis.
+//! The extent of a quadric solid between two planes across an axis.
 //!
 //! Let `y` be the coordinate across the planes and `w` the other two. There the solid is
 //!
@@ -17,8 +17,9 @@
 //! ```
 //!
 //! If `α` is not negative, `ρ` is convex and its maximum is at an end. A paraboloid along the axis,
-//! with `α = 0`, ends by itself where `ρ` vanishes. All of it is computed in intervals, the
-//! coefficients with the errors of the maps they have gone through, and `y` in equal pieces.
+//! with `α = 0`, ends by itself where `ρ` vanishes. Everything is computed in intervals: the
+//! coefficients include the errors of the maps applied to them, and `y` is divided into equal
+//! pieces.
 
 use super::form::Form;
 use durer_math::{Aabb, Dd, EFloat, Interval, Point3};
@@ -26,10 +27,10 @@ use durer_math::{Aabb, Dd, EFloat, Interval, Point3};
 /// The number of pieces of `y`. More pieces make boxes tighter.
 const PIECES: u32 = 8;
 
-/// A quadric solid `f <= 0` as far as its extent between planes is concerned.
+/// A quadric solid `f <= 0`, for bounds of its extent between planes.
 #[derive(Clone, Copy, Debug)]
 pub struct QuadricExtent {
-    /// The point from which coordinates count.
+    /// The origin of the coordinates.
     centre: Point3,
     /// The coefficients of `x·Qx + 2 b·x + c`: the rows of `Q`, `b` and `c`.
     q: [[Interval; 3]; 3],
@@ -130,7 +131,7 @@ impl QuadricExtent {
             (min[axis], max[axis]) = (from, to);
             (min[i], max[i]) = (at_i.lo, at_i.hi);
             (min[j], max[j]) = (at_j.lo, at_j.hi);
-            // An overflow says nothing.
+            // An overflow gives no bound.
             if min.iter().chain(&max).any(|x| x.is_nan()) {
                 return *region;
             }

@@ -140,7 +140,7 @@ fn interval(leaf: &Leaf, ray: &RingRay<Dyadic>) -> Option<[ExactEnd; 2]> {
     }
 }
 
-/// A line, and what it is in other rings, once anybody asks.
+/// A line, with its forms in other rings, which are computed at first use.
 pub(super) struct Line<'a> {
     pub(super) system: &'a System,
     pub(super) at: &'a CentredRay<'a>,
@@ -179,7 +179,7 @@ impl<'a> Line<'a> {
         }))
     }
 
-    /// Whether the line certainly misses the leaf as a node with so many levels above it places it.
+    /// Whether the line certainly misses the leaf placed by a node with this many levels above it.
     #[cold]
     #[inline(never)]
     pub(super) fn misses(&self, word: Word, levels: u32) -> bool {
@@ -193,8 +193,8 @@ impl<'a> Line<'a> {
         Some(if event.sign < 0 { entry } else { exit })
     }
 
-    /// The face of an end whose faces f64 arithmetic does not tell apart; `None` if the line is not
-    /// exactly known.
+    /// The face of an end, where f64 cannot decide between faces; `None` if the line is not exactly
+    /// known.
     #[cold]
     #[inline(never)]
     pub(super) fn face(&self, event: &Event) -> Option<u32> {
@@ -230,7 +230,7 @@ impl<'a> Line<'a> {
         Some(self.end(a)?.compare(&self.end(b)?))
     }
 
-    /// The plane of an event among those of whole numbers.
+    /// The plane of an event as a plane with integers, if it is one.
     fn plane(&self, event: &Event) -> Option<LatticePlane> {
         let Leaf::Polytope(faces) = &self.system.leaf else { return None };
         let (n, h) = faces.get(event.pass.face as usize)?.lattice()?;
@@ -242,7 +242,7 @@ impl<'a> Line<'a> {
         Some(LatticePlane { n, level: if flip { -level } else { level }, rises: (event.sign > 0) != flip })
     }
 
-    /// The same end with a narrow bracket.
+    /// An end with a narrower bracket.
     #[cold]
     #[inline(never)]
     pub(super) fn refined(&self, event: &Event, most: f64) -> Event {

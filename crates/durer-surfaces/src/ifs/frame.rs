@@ -1,7 +1,8 @@
 //! Rays in the frames of copies: through the inverses of the maps, one after another.
 //!
-//! Coordinates are counted from one centre `C` in units of `2^k` in all frames. There the inverse of
-//! `x -> c + L x` is `y -> L^-1 y + (L^-1 (C - c) - C) / 2^k`, and the parameter of the ray stays.
+//! In all frames coordinates are relative to one centre `C`, in units of `2^k`. There the inverse
+//! of `x -> c + L x` is `y -> L^-1 y + (L^-1 (C - c) - C) / 2^k`, and the parameter of the ray
+//! stays.
 
 use crate::planar::quotient_bounds;
 use crate::{CentredRay, RingRay};
@@ -9,13 +10,13 @@ use durer_math::affine::Matrix3;
 use durer_math::eft::scale2;
 use durer_math::{Affine, Dyadic, Point3, Ring, U};
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 pub(super) const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The maps.
 #[derive(Clone, Debug)]
 pub(super) enum Frames {
-    /// `x -> (x + c) / q` with whole numbers: the inverse is `q x - c`, exactly.
+    /// `x -> (x + c) / q` with integers: the inverse is `q x - c`, exactly.
     Lattice { q: f64, shifts: Vec<[f64; 3]> },
     /// Any.
     General { maps: Vec<Affine>, inverses: Vec<Inverse>, centre: Point3, scale: i32 },
@@ -204,8 +205,8 @@ impl Frames {
         letters.iter().fold(ray, |ray, &letter| self.descend_in(letter, ray))
     }
 
-    /// For the maps `(x + c) / q`: the whole number `n.sum`, where `q^N x = sum + y` maps the frame
-    /// of the copy to that of the set.
+    /// For the maps `(x + c) / q`: the integer `n.sum`, where `q^N x = sum + y` maps the frame of
+    /// the copy to that of the set.
     pub(super) fn offset(&self, letters: &[usize], n: &[f64; 3]) -> Option<i64> {
         let Self::Lattice { q, shifts } = self else { return None };
         let q = *q as i64;

@@ -262,7 +262,7 @@ impl HalfSpace {
         Meet::Unknown
     }
 
-    /// The sign of the whole numbers' plane: `n`, if it has some.
+    /// The integer normal and distance of the face's plane, if it has them.
     pub(super) fn lattice(&self) -> Option<(&[f64; 3], i64)> {
         match &self.plane {
             ExactPlane::Level { n, h, .. } => Some((n, *h as i64)),
@@ -421,8 +421,8 @@ impl Ball {
 }
 
 /// The parameters that a line may have in a box; `None` if there certainly are none (T. L. Kay, J.
-/// T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986). A direction known to less than `2^-20`
-/// of itself gives no bound.
+/// T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986). A direction with a relative error above
+/// `2^-20` gives no bound.
 #[inline(always)]
 pub(super) fn slabs(bounds: &Aabb, ray: &CellRay) -> Option<(f64, f64)> {
     const SURE: f64 = durer_math::scale::pow2(-20);

@@ -16,8 +16,8 @@
 //!
 //! Copies are convex and closed, so each meets a line in a closed interval. The crossings are the
 //! ends of the union of these intervals: where copies overlap, share a face, an edge or a corner,
-//! the line goes on inside and nothing is crossed. Whether two intervals touch is decided exactly:
-//! by whole numbers for the sponge of Menger and the tetrahedron of Sierpinski, whose planes are
+//! the line stays inside and nothing is crossed. Whether two intervals touch is decided exactly:
+//! with integers for the Menger sponge and the Sierpinski tetrahedron, whose planes are
 //! `n.x = k / q^N`, else by exact arithmetic where f64 leaves it open.
 //!
 //! * `frame.rs`: rays in the frames of copies, in f64 with their errors and in any ring;
@@ -79,7 +79,7 @@ pub enum IfsError {
         /// Its largest singular value, rounded.
         value: f64,
     },
-    /// The copies cannot be numbered.
+    /// There are too many copies to number.
     #[error("ifs: {maps} maps of depth {depth} make more than 2^106 leaves")]
     TooMany {
         /// How many maps there are.
@@ -96,7 +96,7 @@ pub enum IfsError {
     /// The corners of the leaf lie in a plane, or are not finite.
     #[error("ifs: the corners of the tetrahedron must be finite and not lie in one plane")]
     Tetrahedron,
-    /// A number is beyond what can be computed with.
+    /// A number is too large.
     #[error("ifs: it is too large, up to {0:?}")]
     TooLarge(f64),
 }
@@ -131,15 +131,15 @@ struct System {
     depth: u32,
     frames: Frames,
     leaf: Leaf,
-    /// Boxes, in the set's own frame, of what is left of a node with so many levels below it, and
-    /// as cells see them.
+    /// For each number of levels below a node, a box of its copies in the set's own frame, and the
+    /// same box for cells' rays.
     bounds: Vec<Aabb>,
     boxes: Vec<Aabb>,
-    /// Whether a node's copies lie in the leaf, and this is a better bound than a box.
+    /// Whether a node's copies lie in the leaf, and the leaf is a better bound than a box.
     leaf_holds_all: bool,
-    /// Whether all copies of a node lie in its leaf: so it is for Menger's and Sierpinski's sets.
+    /// Whether it is Menger's or Sierpinski's set, where all copies of a node lie in its leaf.
     is_lattice: bool,
-    /// Coordinates are counted from here, in units of `2^scale`.
+    /// The origin of the coordinates; their unit is `2^scale`.
     centre: Point3,
     scale: i32,
     /// The radius of a ball about the centre that holds the set.
@@ -280,7 +280,7 @@ impl System {
         self.first_letters(word, self.depth)
     }
 
-    /// The letters of a node with so many levels above it.
+    /// The letters of a node with this many levels above it.
     fn first_letters(&self, mut word: Word, levels: u32) -> Vec<usize> {
         let m = self.frames.len() as u128;
         let mut letters = vec![0; levels as usize];
@@ -369,7 +369,7 @@ impl Accelerate for Ifs {
 }
 
 impl Algebraic for Ifs {
-    /// A face is a plane or an ellipsoid of one copy, and its number does not tell which copy:
+    /// A face is a plane or an ellipsoid of one copy, and its number does not identify the copy:
     /// see [`Algebraic::sign_at_root`].
     fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         None

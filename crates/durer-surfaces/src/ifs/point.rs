@@ -1,5 +1,5 @@
-//! Points of the surface: on the planes of whole numbers directly, else on the leaf itself, brought
-//! back through one map after another.
+//! Points of the surface: directly on planes with integers, else on the leaf itself, mapped back
+//! through one map after another.
 
 use super::leaf::{HalfSpace, Leaf, outward};
 use super::{IfsLeaf, System, word_of};
@@ -8,7 +8,7 @@ use crate::{All, AxisBox, LocalRay, Need, RingRay, Root, Sphere, Surface, Surfac
 use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, Ring, U, Vec3};
 
-/// The plane `n.x = level / weight` with whole numbers.
+/// The plane `n.x = level / weight` with integers.
 struct LatticePlane {
     n: Vec3,
     level: f64,

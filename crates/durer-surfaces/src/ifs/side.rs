@@ -29,7 +29,7 @@ impl System {
         }
     }
 
-    /// The side, as soon as it is certain; else the copies whose boundary holds the point.
+    /// Returns the side if it is certain; else collects the copies whose boundary holds the point.
     fn search(
         &self,
         point: &LocalPoint<'_>,
@@ -63,7 +63,7 @@ impl System {
         }
         let zero = || Dyadic::ZERO;
         let Some(at) = self.point_in_ring::<Dyadic>(point, letters, [zero(), zero(), zero()]) else {
-            // Only a point that is not exactly known: it may be on the boundary.
+            // This happens only for a point that is not exactly known: it may be on the boundary.
             return Some(Side::On);
         };
         match inside(&self.leaf, &at) {

@@ -16,7 +16,7 @@ use core::ops::ControlFlow;
 use durer_math::{RaySide, U};
 use std::collections::BinaryHeap;
 
-/// Half of what a bracket may be wide, relative to `max(|t|, size / |d|)`.
+/// Half of the largest width of a bracket, relative to `max(|t|, size / |d|)`.
 const NARROW: f64 = 24.0 * U;
 
 /// A stretch of the line inside the set.
@@ -26,14 +26,14 @@ struct Span {
     to: Event,
     /// Whether the beginning has been passed on.
     shown: bool,
-    /// Nobody knows whether the line meets it: it is not exactly known.
+    /// It is unknown whether the line meets it, because the line is not exactly known.
     doubtful: bool,
 }
 
-/// A node that waits.
+/// A node in the queue.
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
-    /// No crossing of it comes before.
+    /// A lower bound on its crossings.
     lo: f64,
     hi: f64,
     word: Word,
@@ -56,14 +56,14 @@ impl PartialOrd for Waiting {
 }
 
 impl Ord for Waiting {
-    /// The heap's greatest is the one that begins first; of equal ones the deepest.
+    /// The heap's greatest node is the one that begins first; of equal ones the deepest.
     fn cmp(&self, other: &Self) -> Ordering {
         let of = |w: &Self| (w.levels, w.word);
         other.lo.total_cmp(&self.lo).then_with(|| of(self).cmp(&of(other)))
     }
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
     waiting: BinaryHeap<Waiting>,
@@ -135,7 +135,7 @@ impl Walk<'_, '_> {
         self.show(f64::INFINITY)
     }
 
-    /// Puts a node where it waits, if the line may meet it.
+    /// Adds a node to the queue, if the line may meet it.
     #[inline(always)]
     fn wait(&mut self, cell: &CellRay, least: f64, word: Word, levels: u8) {
         let system = self.line.system;
@@ -161,8 +161,9 @@ impl Walk<'_, '_> {
         self.lists.waiting.push(Waiting { lo: near.max(least), hi: far, word, slot, levels });
     }
 
-    /// Whether the line misses a node whose copies lie in its leaf. The exact answer leaves out nodes
-    /// beside which the line runs within rounding; all their copies would have to be decided exactly.
+    /// Whether the line misses a node whose copies lie in its leaf. Where f64 leaves it open, the
+    /// exact answer excludes nodes that the line passes within rounding; otherwise all their copies
+    /// would need exact decisions.
     #[inline(always)]
     fn is_missed(&self, cell: &CellRay, node: &Waiting) -> bool {
         match self.line.system.leaf.quick(cell) {
@@ -172,7 +173,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// Whether all of a node certainly lies within a span, so that it changes nothing.
+    /// Whether a node certainly lies within a span, so that it has no effect.
     #[inline(always)]
     fn is_covered(&self, node: &Waiting) -> bool {
         self.lists
@@ -220,7 +221,7 @@ impl Walk<'_, '_> {
         let mut i = 0;
         while i < spans.len() {
             let other = spans[i];
-            // Spans whose order nobody knows touch.
+            // Spans whose order is unknown count as touching.
             let ahead = line.compare(&span.from, &other.to).unwrap_or(Ordering::Equal);
             if ahead.is_gt() {
                 before = i + 1;
@@ -242,7 +243,7 @@ impl Walk<'_, '_> {
         spans.insert(before, span);
     }
 
-    /// Passes on what is final if nothing that waits begins before `until`.
+    /// Passes on the crossings that are final if no node in the queue begins before `until`.
     #[inline(always)]
     fn show(&mut self, until: f64) -> ControlFlow<()> {
         while let Some(&span) = self.lists.spans.first() {
@@ -338,7 +339,7 @@ impl Walk<'_, '_> {
             }
             match self.line.against(event, end) {
                 Some(order) => order == away,
-                // Of a ray that is not exactly known only its start's side may be.
+                // For a ray that is not exactly known, only the side of its start may be certain.
                 None => match (end, at.spawned()) {
                     (End::Min, Some((RaySide::Front, ..))) => sign > 0,
                     (End::Min, Some((RaySide::Back, ..))) => sign < 0,
@@ -350,8 +351,8 @@ impl Walk<'_, '_> {
     }
 }
 
-/// The first (for `wanted` less) or last of two ends, by the order of `a` and `b`. If nobody knows
-/// the order, a bracket that holds either.
+/// The first (for `wanted` less) or last of two ends, by the order of `a` and `b`. If the order is
+/// unknown, its bracket holds that end for either order.
 #[inline(always)]
 fn pick(a: &Event, b: &Event, order: Option<Ordering>, wanted: Ordering) -> Event {
     match order {

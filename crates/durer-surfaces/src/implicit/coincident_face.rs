@@ -7,11 +7,11 @@
 //!
 //! A regularised solid (A. A. G. Requicha, "Representations for rigid solids: theory, methods, and
 //! systems", *ACM Computing Surveys* 12(4), 1980) contains the points whose neighbourhood is
-//! inside, so it contains such a face. The ray is inside where two lines beside it, across the
-//! face, are both certainly inside, and outside where one of them is outside. Their distance starts
-//! with the error of a point and grows until something is certain, at most to the length of the
-//! stretch in question. The brackets of the crossings are wider by that distance. These crossings
-//! are clusters, because no sign of the ray's own proves them.
+//! inside, so it contains such a face. The ray is inside where two parallel lines, one on each side
+//! of the face, are both certainly inside, and outside where one of them is outside. Their distance
+//! starts with the error of a point and grows until something is certain, at most to the length of
+//! the stretch in question. The brackets of the crossings are wider by that distance. These
+//! crossings are clusters, because no sign of the ray's own proves them.
 
 use super::line::BoundedLine;
 use super::root_isolator::{CertifiedFunction, Found};
@@ -29,15 +29,15 @@ const COSINES: [f64; 5] =
 /// The most passes over eight stretches for one run.
 const MOST_LOOKS: u32 = 2_000;
 
-/// Two lines beside a ray.
+/// Two lines next to a ray, one on each side of the face.
 struct Beside<'a> {
     tape: &'a Tape,
     lines: [BoundedLine; 2],
 }
 
 impl<'a> Beside<'a> {
-    /// The lines on either side of the face, if there is one: at most of eight places of the run it
-    /// is certain for both whether they are inside, and one of them is.
+    /// The lines on either side of the face, if there is one: at most of eight points of the run,
+    /// the state of both lines is certain and one of them is inside.
     fn new(line: &BoundedLine, tape: &'a Tape, (lo, hi): (f64, f64)) -> Option<Self> {
         let (u, v) = tangents(line.direction() * (1.0 / line.direction().length()));
         let at: [f64; 8] = core::array::from_fn(|i| lo + (hi - lo) * ((i as f64 + 0.5) / 8.0));

@@ -91,8 +91,8 @@ fn sign_infos(v: &I8) -> [Option<SignInfo>; 8] {
     })
 }
 
-/// What the value in the middle and the steepest slope prove about a stretch; `None` if it must be
-/// divided.
+/// The facts that the value in the middle and bounds of the slope prove about a stretch; `None` if
+/// it must be divided.
 fn by_mean_value(
     line: &BoundedLine,
     middle: &I8,
@@ -124,8 +124,8 @@ const PASSES_OF_A_PART: u32 = 256;
 /// The most parts that are checked at each end.
 const MOST_PARTS: u32 = 128;
 
-/// Shortens a cluster at its ends by what certainly has the sign before or behind it, where the
-/// work for a ray did not suffice for each stretch alike.
+/// Shortens a cluster at its ends by parts that certainly have the sign before or behind it. This
+/// is for rays whose budget of passes was used up.
 #[cold]
 pub(super) fn trimmed(line: &BoundedLine, tape: &Tape, mut found: Found) -> Found {
     // A cluster that begins with another sign, as where a container's face meets the surface, has a

@@ -9,12 +9,12 @@
 //! ```
 //!
 //! Otherwise bounds of the formula and its slope on the stretch are computed (`subdivide.rs`).
-//! Values and stretches are computed for eight lines at once, by the tape that is right for all of
+//! Values and stretches are computed for eight lines at once, by a tape that is valid for all of
 //! them.
 //!
-//! Lines are divided where rounded numbers say that they change cells, as for single rays
+//! Lines are divided where they change cells according to rounded numbers, as for single rays
 //! (`octree.rs`, `octree_lookup.rs`): a point is looked up in the cell that is a sixteenth of the
-//! margin ahead. Lines whose points are known worse than half of that are left to single rays.
+//! margin ahead. Lines whose points have errors above half of that continue as single rays.
 
 use super::Isosurface;
 use super::march::Stop;

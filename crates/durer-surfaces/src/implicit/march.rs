@@ -1,4 +1,4 @@
-//! Eight lines through the cells of a formula, as far as it certainly keeps its sign.
+//! Eight lines marching through the cells of a formula while it certainly keeps its sign.
 //!
 //! A line passes a cell where the formula has the line's sign, where it is undefined and the line
 //! is outside, or where the bounds of the gradient prove that it moves away from zero. The line
@@ -11,8 +11,8 @@ use crate::packet::{Line8, Segment8};
 use durer_math::lanes::LANES;
 use durer_math::{F8, M8, Vec3};
 
-/// A line that rounding takes out of this many cells as soon as it enters them runs along their
-/// faces. It is left to single rays.
+/// A line that rounding moves out of this many cells as soon as it enters them runs along their
+/// faces. It continues as a single ray.
 const GRAZED: f64 = 8.0;
 
 /// Where the lines stopped.
@@ -30,7 +30,7 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Moves the `asked` lines on from where their stretches begin.
+    /// Advances the lines in `told.lanes` from the starts of their segments.
     #[inline(never)]
     pub(super) fn of(cells: &Cells, line: &Line8, told: &Segment8) -> Self {
         let (a, b, zero) = (told.a, told.b, F8::ZERO);
@@ -75,7 +75,7 @@ fn go_on(cells: &Cells, line: &Line8, told: &Segment8, stop: &mut Stop) {
         stop.a.set_where(through, told.last);
         stop.b.set_where(through, told.last);
         open = open & passed & !through;
-        // Cells grazed at a corner: rounding says that the line leaves them at once.
+        // Cells grazed at a corner: by rounding the line leaves them at once.
         grazed += (open & end.le(s)).keep(F8::ONE);
         let along = open & grazed.gt(F8::splat(GRAZED));
         stop.a.set_where(along, s);

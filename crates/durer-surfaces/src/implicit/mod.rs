@@ -63,7 +63,7 @@ pub struct Isosurface {
     tape: Tape,
     container: Container,
     open: bool,
-    /// Touching points do not belong to the surface: see [`Isosurface::regular`].
+    /// Whether touching points do not belong to the surface: see [`Isosurface::regular`].
     regular: bool,
     /// The octree, built at first use; a convex superellipsoid hardly ever needs it.
     cells: Arc<OnceLock<Cells>>,
@@ -101,7 +101,7 @@ impl Isosurface {
         Ok(surface)
     }
 
-    /// The same surface, whose octree is built at first use.
+    /// [`Isosurface::new`], without the octree, which is built at first use.
     fn undivided(formula: &Formula, threshold: f64, container: Container) -> Result<Self, IsosurfaceError> {
         if !threshold.is_finite() {
             return Err(IsosurfaceError::Threshold(threshold));
@@ -126,7 +126,7 @@ impl Isosurface {
         self.cells.get_or_init(|| Cells::new(&self.tape, self.container.bounds()))
     }
 
-    /// A tape that is right within `reach` of `p` along each axis: a cell's own, if possible.
+    /// A tape that is valid within `reach` of `p` along each axis: a cell's own, if possible.
     fn tape_near(&self, p: Point3, reach: f64) -> &Tape {
         match self.divided().place(p, reach) {
             Some(CellLookup::Open(tape) | CellLookup::Slope(tape, _)) => tape,
@@ -134,14 +134,14 @@ impl Isosurface {
         }
     }
 
-    /// The same surface without the container's faces: a sheet.
+    /// The surface without the container's faces: a sheet.
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
         self
     }
 
-    /// The same solid without touching points: a ray that is certainly on one side before and
+    /// The solid without touching points: a ray that is certainly on the same side before and
     /// behind has not crossed. CSG as one formula has zeros where faces of two parts coincide,
     /// which are no surface of the result (R. B. Tilove, A. A. G. Requicha, "Closure of Boolean
     /// operations on geometric entities", *Computer-Aided Design* 12(5), 1980: the regularised

@@ -8,9 +8,9 @@
 //! falls along a ray's direction, a stretch in the cell with the same sign at both ends holds no
 //! root.
 //!
-//! Bounds are taken of cells enlarged by a margin. A ray is divided where *rounded* numbers say
-//! that it changes cells. As long as its points are known to less than the margin, the bounds of a
-//! cell hold on its stretch.
+//! Bounds are taken of cells enlarged by a margin. A ray is divided where it changes cells
+//! according to *rounded* numbers. As long as its points' errors are below the margin, the bounds
+//! of a cell hold on its stretch.
 
 use super::line::BoundedLine;
 use super::octree_lookup::{Grid, Lookup};
@@ -70,7 +70,7 @@ impl Gradient {
 }
 
 /// Bounds of the slope along a direction `d` that is known within `e`, for a gradient between
-/// `least` and `most`; for one line, or for eight. Infinite bounds say nothing.
+/// `least` and `most`; for one line, or for eight. Infinite bounds carry no information.
 #[inline(always)]
 pub(super) fn slope_along<T: Scalar + Number>(least: [T; 3], most: [T; 3], d: [T; 3], e: [T; 3]) -> (T, T) {
     let zero = T::from(0.0);
@@ -125,10 +125,10 @@ pub(super) enum CellLookup<'a> {
     Sign(bool),
     /// No surface.
     Gap,
-    /// Perhaps; this tape says more.
+    /// There may be surface; this tape decides.
     Open(&'a Tape),
-    /// Perhaps; the formula, of which this is a tape, strictly rises (`true`) or falls along the
-    /// line.
+    /// There may be surface; the formula, with this tape, strictly rises (`true`) or falls along
+    /// the line.
     Slope(&'a Tape, bool),
 }
 
@@ -157,8 +157,8 @@ impl Cells {
         made
     }
 
-    /// What becomes of a cell in which there may be surface; `at` is where it is, in parts of its
-    /// size.
+    /// Divides a cell in which there may be surface, or makes it a leaf; `at` is its place, in
+    /// multiples of its size.
     fn divided(
         &mut self,
         bounds: &Aabb,
@@ -209,7 +209,7 @@ impl Cells {
         Cell::Inner(first as u32)
     }
 
-    /// Brings leaves that share a tape together, in eights.
+    /// Sorts leaves into groups of eight with one tape each.
     fn bring_together(&mut self) {
         let mut order: Vec<(u32, usize)> = self.leaves.iter().map(|leaf| leaf.tape).zip(0..).collect();
         order.sort_unstable();
@@ -238,7 +238,7 @@ impl Cells {
         &self.gradients[eight].get_or_init(|| self.bounded(eight))[leaf as usize % 8]
     }
 
-    /// The same in eight leaves.
+    /// Bounds of the gradient in eight leaves.
     #[cold]
     fn bounded(&self, eight: usize) -> [Gradient; 8] {
         let leaves = &self.leaves[8 * eight..][..8];
@@ -268,8 +268,8 @@ impl Cells {
         &self.tapes[self.leaves[leaf as usize].tape as usize]
     }
 
-    /// What is known of all points within `reach` of `p` along each axis; `None` if that is more
-    /// than the margin pays for.
+    /// The facts that hold for all points within `reach` of `p` along each axis; `None` if `reach`
+    /// exceeds the margin.
     pub(super) fn place(&self, p: Point3, reach: f64) -> Option<CellLookup<'_>> {
         let spare = 0.5 * self.margin;
         let held = (0..3).all(|i| p[i] >= self.extent.min[i] - spare && p[i] <= self.extent.max[i] + spare);
@@ -288,12 +288,12 @@ impl Cells {
         self.reach
     }
 
-    /// How far from a cell its bounds hold.
+    /// The distance around a cell within which its bounds hold.
     pub(super) fn margin(&self) -> f64 {
         self.margin
     }
 
-    /// The number of the tape that is right in the cell of a point, and near it; the whole one
+    /// The number of a tape that is valid in and near the cell of a point; the whole formula's
     /// where there is no surface.
     pub(super) fn tape_at(&self, p: [f64; 3]) -> u32 {
         match self.grid.look_up(p) {
@@ -320,7 +320,7 @@ impl Cells {
     }
 
     /// Divides the stretch from `a` to `b` of a line by the cells, in ascending order, without
-    /// holes, as long as `take` says so.
+    /// gaps, until `take` returns false.
     pub(super) fn walk<'a>(
         &'a self,
         line: &BoundedLine,
@@ -329,7 +329,7 @@ impl Cells {
     ) {
         let known = line.err.iter().all(|&e| e < 0.5 * self.margin);
         if !known {
-            // The ray is not known well enough to say which cells it is in.
+            // The ray's error is too large to locate it in cells.
             take(a, b, CellLookup::Open(&self.tapes[0]));
             return;
         }
@@ -394,7 +394,7 @@ impl Cells {
         }
     }
 
-    /// How many cells there may be surface in, and the steps of their tapes on average.
+    /// The number of cells that may hold surface, and the mean length of their tapes.
     pub(super) fn open(&self) -> (usize, f64) {
         self.open
     }

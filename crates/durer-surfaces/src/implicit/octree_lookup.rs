@@ -71,7 +71,7 @@ fn number(at: [u32; 3], power: u32) -> usize {
 impl Grid {
     const IS_BRICK: u32 = 0b111;
 
-    /// A grid without any cells.
+    /// A grid whose cells are not filled yet.
     pub(super) fn new(extent: &Aabb) -> Self {
         let size = (extent.max - extent.min).to_array().map(|x| x / PLACES);
         Self {
@@ -79,7 +79,7 @@ impl Grid {
             size,
             over: size.map(|x| 1.0 / x),
             coarse: vec![0; 1 << (3 * (DEEPEST - BRICK))].into(),
-            // A lookup without a brick may read the first one, which no place uses.
+            // A lookup of a place without a brick reads the first brick, which no place uses.
             bricks: vec![[0; 1 << (3 * BRICK)]],
         }
     }
@@ -138,8 +138,8 @@ impl Grid {
         if is_brick { inner } else { cell }
     }
 
-    /// The index of the place of a coordinate; the border's for NaN and for what rounding puts
-    /// beyond it.
+    /// The index of the place of a coordinate; NaN and coordinates beyond the grid get a place at
+    /// the border.
     #[inline(always)]
     fn place(&self, x: f64, axis: usize) -> u32 {
         (((x - self.min[axis]) * self.over[axis]) as i32).clamp(0, (1 << DEEPEST) - 1) as u32

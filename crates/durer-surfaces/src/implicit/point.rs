@@ -27,13 +27,13 @@ struct Near {
 }
 
 impl Near {
-    /// Bounds within `r` of `p`, per axis, by a tape that is right there; `None` if they are not
+    /// Bounds within `r` of `p`, per axis, by a tape that is valid there; `None` if they are not
     /// finite or the formula may not be smooth.
     fn new(tape: &Tape, p: Point3, r: f64) -> Option<Self> {
         Self::with_value(tape, p, r).map(|(near, _)| near)
     }
 
-    /// The same bounds, and bounds of the value at `p` itself from the fourth lane.
+    /// [`Near::new`], with bounds of the value at `p` itself from the fourth lane.
     fn with_value(tape: &Tape, p: Point3, r: f64) -> Option<(Self, Interval)> {
         let p = p.to_array();
         let x = [0, 1, 2].map(|i| {
@@ -61,9 +61,9 @@ impl Near {
         let stray = (0..3).map(|i| self.gradient[i].magnitude() * (ulp[i] + r * 4.0 * U)).sum::<f64>();
         let off = (here + stray) / m * (1.0 + 16.0 * U);
         let holds = m > 0.0 && off + ulp.max_abs() * 2.0 <= r;
-        // Within `r` the gradient turns by at most `turn`, so at a distance `d` the surface has
-        // left its tangent plane by at most `turn d`: no more than `bend / 2 d^2` from one rounding
-        // of the position on, and nothing that matters below that.
+        // Within `r` the gradient changes by at most `turn`, so at a distance `d` the surface has
+        // left its tangent plane by at most `turn d`. From one rounding of the position on that is
+        // at most `bend / 2 d^2`; below that it does not matter.
         let width = |i: usize| self.gradient[i].width();
         let turn = Vec3::new(width(0), width(1), width(2)).length() / m;
         holds.then(|| (off, 2.0 * turn / ulp.max_abs() * (1.0 + 16.0 * U)))
@@ -95,8 +95,7 @@ impl Isosurface {
         let width = at.width(root);
         let direction = line.direction();
         let reach = 64.0 * (width + size * U) + f64::MIN_POSITIVE;
-        // The crossing is no farther than this along any axis, so it may lie on a plane that is
-        // not.
+        // The crossing is within this distance along any axis, so it may lie on a plane within it.
         let fold = (width * direction.max_abs() + Vec3::from(line.err).max_abs()) * (1.0 + 8.0 * U);
         let foot = self.gauge.as_ref().and_then(|gauge| gauge.foot(p0, (fold, reach)));
         let Foot { p, n, off, bend } =
@@ -126,8 +125,8 @@ impl Isosurface {
         let back = if sign > 0 { direction } else { -direction };
         let (p, ng) = match self.tape_near(p0, reach).wall(p0, reach) {
             Some(wall) => {
-                // Beside a jump that is no wall, because the formula jumps back or not across zero,
-                // the surface continues.
+                // Next to a jump that is no wall, because the formula jumps back or not across
+                // zero, the surface continues.
                 let aside = wall * (4.0 * reach / wall.length());
                 if let Some(foot) =
                     [aside, -aside].iter().find_map(|&aside| self.quick_foot(p0 + aside, 16.0 * reach))
@@ -148,8 +147,8 @@ impl Isosurface {
         Foot { p, n, off, bend }
     }
 
-    /// The same point from two evaluations of the formula, where one step of Newton's method is
-    /// enough; `None` where it is not.
+    /// [`Isosurface::foot`] from two evaluations of the formula; `None` where one step of Newton's
+    /// method is not enough.
     fn quick_foot(&self, p0: Point3, reach: f64) -> Option<Foot> {
         let r = 256.0 * (p0.to_vec().max_abs() * U) + least_step(p0);
         let tape = self.tape_near(p0, reach + 4.0 * r);

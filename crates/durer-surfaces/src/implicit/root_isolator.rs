@@ -16,7 +16,7 @@ pub(crate) trait CertifiedFunction {
     /// The sign on each of eight stretches (`true`: positive), if it is certain; `None` also where
     /// `g` may be undefined.
     fn signs(&self, form: Self::Form<'_>, a: &[f64; 8], b: &[f64; 8]) -> [Option<bool>; 8];
-    /// Whether one form is so much shorter than the other that another evaluation pays.
+    /// Whether one form is so much shorter than the other that one more evaluation saves time.
     fn is_shorter(_form: Self::Form<'_>, _than: Self::Form<'_>) -> bool {
         false
     }
@@ -74,14 +74,14 @@ struct Run<F> {
     /// The direction of `g`; `None` if unknown.
     rises: Option<bool>,
     form: F,
-    /// The sign behind the run, certain by so little that the run may continue.
+    /// The sign behind the run, if its margin is so small that the run may continue.
     past: Option<bool>,
 }
 
 /// Takes stretches in ascending order, without gaps, and gives the roots.
 pub(crate) struct RootIsolator<'a, C: CertifiedFunction> {
     line: &'a C,
-    /// A form that is right everywhere.
+    /// A form that is valid everywhere.
     whole: C::Form<'a>,
     /// The sign before the run, if it is known.
     before: Option<bool>,
@@ -114,7 +114,7 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         found
     }
 
-    /// Takes the next stretch. `form` is right on it and near it.
+    /// Takes the next stretch. `form` is valid on and near it.
     ///
     /// Near a tangent the sign flickers between known and unknown. Once unknown it stays so until
     /// it is known with a margin.
@@ -180,7 +180,7 @@ impl<'a, C: CertifiedFunction> RootIsolator<'a, C> {
         let Some(sign) = past.or_else(|| self.line.sign(form, a)) else { return self.turn(a, b, rises) };
         match (self.line.sign(form, b), &mut self.run) {
             (Some(after), _) if after == sign => return self.hold(sign, b, form),
-            // The sign is certain by too little.
+            // The sign's margin is too small.
             (None, Some(run)) if !self.line.is_plain(form, a) => {
                 (run.hi, run.form, run.past) = (b, self.whole, None);
                 return None;
@@ -384,8 +384,8 @@ fn sectioned<C: CertifiedFunction>(line: &C, form: C::Form<'_>, lo: f64, hi: f64
     }
 }
 
-/// How far from `far` towards `near` the sign of a monotone `g` certainly equals that at `far`. If
-/// it does at a point, it does at all points before it.
+/// The point, going from `far` towards `near`, up to which the sign of a monotone `g` certainly
+/// equals that at `far`. If it does at a point, it does at all points before it.
 fn plain_until<C: CertifiedFunction>(line: &C, form: C::Form<'_>, far: f64, near: f64) -> f64 {
     let Some(sign) = line.sign(form, far) else { return far };
     let (mut known, mut open) = (far, near);

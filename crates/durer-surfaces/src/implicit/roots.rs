@@ -62,7 +62,7 @@ impl Isosurface {
         }
     }
 
-    /// The roots between two places beyond which everything is outside.
+    /// The roots between two parameters beyond which everything is outside.
     #[cold]
     #[inline(never)]
     fn roots_between(&self, ray: &LocalRay<'_>, (lo, hi): (f64, f64), sink: &mut dyn Sink) {
@@ -151,7 +151,7 @@ impl Isosurface {
         self.cap_or_rim(ray, cap, (f64::INFINITY, f64::NEG_INFINITY), sink)
     }
 
-    /// Passes on a crossing of the container in a bracket that also holds a stretch beside it.
+    /// Passes on a crossing of the container in a bracket that also holds an adjacent stretch.
     fn cap_or_rim(
         &self,
         ray: &LocalRay<'_>,
@@ -298,7 +298,7 @@ impl Query<'_> {
         if let Some(degree) = surface.degree {
             return if walk.all(degree, (a, end.1)) { walk.end(end, exit) } else { None };
         }
-        // Cells before the range that may hold surface, since the last one that certainly holds
+        // The cells before the range that may hold surface, after the last one that certainly holds
         // none.
         let mut ahead = Vec::new();
         let mut go_on = true;
@@ -320,7 +320,7 @@ impl Query<'_> {
     }
 }
 
-/// Where the walk begins, and the formula's sign there.
+/// The start of the walk, and the formula's sign there.
 struct Start {
     at: f64,
     before: bool,
@@ -338,13 +338,13 @@ struct Walk<'a, 's> {
     /// Roots beyond this do not matter.
     last: f64,
     passes: u32,
-    /// The next root lies at a rim with this crossing of the container; without one if that is out
-    /// of the ray's range.
+    /// If set, the next root lies at a rim with this crossing of the container; the inner `None` is
+    /// a crossing out of the ray's range.
     rim: Option<Option<&'a Root>>,
 }
 
 impl<'a> Walk<'a, '_> {
-    /// Takes a whole stretch of a formula that is a polynomial. Returns whether to continue.
+    /// Isolates the roots on a whole stretch of a polynomial formula. Returns whether to continue.
     fn all(&mut self, degree: usize, ends: (f64, f64)) -> bool {
         let (line, tape, mut passes) = (self.line, &self.surface.tape, self.passes);
         let go_on = isolate_powers((line, tape, degree), ends, &mut passes, &mut |a, b, verdict| {
@@ -358,20 +358,20 @@ impl<'a> Walk<'a, '_> {
         go_on
     }
 
-    /// Whether nothing that begins here matters.
+    /// Whether no root from `a` on matters.
     fn is_beyond(&self, a: f64) -> bool {
         self.tracker.is_idle() && (a > self.last || self.at.bracket(a, a).0 > self.sink.limit())
     }
 
-    /// The sign where the container ends; `None` if it is that of a rim, which was passed on, or if
-    /// no more is wanted.
+    /// The sign where the container ends; `None` if a rim there was passed on, or if no more roots
+    /// are wanted.
     fn end(&mut self, end: (f64, f64), exit: Option<&'a Root>) -> Option<bool> {
         let surface = self.surface;
-        // The walk's own result counts before a rounded value.
+        // The walk's own result takes precedence over a rounded value.
         let told = self.tracker.settled();
         let after = surface.sign_on(self.line, end).or(told);
         if after.is_none() && surface.is_rim(self.line, end) {
-            // A root found before that stands by itself.
+            // A root found before that is separate.
             let found = self.tracker.take(end.0, end.1, SignInfo::Unresolved, &surface.tape);
             if !self.show(found) {
                 return None;
@@ -386,7 +386,7 @@ impl<'a> Walk<'a, '_> {
         if self.show(found) { Some(after) } else { None }
     }
 
-    /// Takes the next cell's stretch. Returns whether to continue.
+    /// Isolates the roots in the next cell's stretch. Returns whether to continue.
     fn take(&mut self, a: f64, b: f64, place: CellLookup<'a>) -> bool {
         if self.is_beyond(a) {
             return false;
@@ -426,7 +426,7 @@ impl<'a> Walk<'a, '_> {
                     ControlFlow::Continue(())
                 }
             }
-            // What is left when the passes are used up may be much longer than the unresolved part.
+            // When the passes are used up, the rest may be much longer than the unresolved part.
             Some(found) if found.kind == RootKind::Cluster && self.passes >= MOST_PASSES => {
                 shown(self.at, self.sink, &trimmed(self.line, &self.surface.tape, found))
             }
@@ -435,8 +435,8 @@ impl<'a> Walk<'a, '_> {
         flow.is_continue()
     }
 
-    /// A crossing at a rim, by the container's face or right beside it: one crossing, reported as
-    /// the container's.
+    /// Passes on a crossing at a rim, on the container's face or next to it: one crossing, reported
+    /// as the container's.
     #[cold]
     #[inline(never)]
     fn show_rim(&mut self, cap: &Root, found: &Found) -> ControlFlow<()> {

@@ -1,9 +1,9 @@
 //! Stretches of some of eight lines, divided into pieces so that no lane is empty.
 //!
 //! A pass over a tape costs the same for one lane as for eight, and lines that advance at their own
-//! pace seldom need it all at once. Where `n` lines ask, each stretch is divided into `8 / n`
-//! pieces. A piece is more likely to be decided than the whole, and a line advances as far as its
-//! first pieces keep the sign.
+//! pace seldom need it all at once. If `n` lines need it, each of their stretches is divided into
+//! `8 / n` pieces. A piece is more likely to be decided than the whole, and a line advances as far
+//! as its first pieces keep the sign.
 //!
 //! ```text
 //!   |g(m)| > max(|l|, |h|) w / 2     on a piece of length w with the middle m, where the slope is in [l, h]
@@ -29,7 +29,7 @@ pub(super) fn boxes(line: &Line8, (a, b): (&F8, &F8), e: F8) -> [I8; 3] {
 
 /// Pieces of stretches, those of one line side by side.
 pub(super) struct Pieces {
-    /// The lines that ask, as bits, and how many pieces each of them has.
+    /// The active lines, as bits, and the number of pieces of each.
     asking: u8,
     each: usize,
     /// The line of each piece. Unused lanes repeat the last piece.
@@ -51,7 +51,7 @@ struct Certain {
 }
 
 impl Pieces {
-    /// Divides the stretches of the lines that ask, at least one, with bounds of the slope in their
+    /// Divides the stretches of the active lines, at least one, with bounds of the slope in their
     /// cells.
     #[inline(never)]
     pub(super) fn new(line: &Line8, told: &Segment8, asking: M8, slope: &[F8; 2]) -> Self {
@@ -97,7 +97,7 @@ impl Pieces {
         (self.low.0[lane], self.high.0[lane]) = (slope[0].0[i], slope[1].0[i]);
     }
 
-    /// Classifies the stretches of the lines that ask, by a tape that is right on all of them. No
+    /// Classifies the stretches of the active lines, by a tape that is valid on all of them. No
     /// stretch becomes shorter than `least`.
     pub(super) fn classify(&self, tape: &Tape, least: f64, told: &mut Segment8) {
         let certain = self.certain(tape, told);

@@ -13,12 +13,12 @@
 //! `2 m (ρ - e) / (2 m |z_n| + |z_n|² + m² + ρ - e)` either, which needs no root once the next
 //! point's `ρ` is known; `m` is `|z_n|` or 1/2. The rounding of the next point is included:
 //! `e = 10 U (|z_n|² + |c|)`, as for balls (`orbit.rs`). Nor is any point inside within
-//! `|z_n| - R`. The steps forward and back cost half of what balls along a stretch do, and no
+//! `|z_n| - R`. The steps forward and back cost half as much as balls along a stretch, and no
 //! length has to be guessed. Cubes have `3 |z_n|² ρ' + 3 |z_n| ρ'² + ρ'³`, for which
 //! `ρ' = (ρ - e) / (3 (|z_n| + m)²)` is at most the root for any `m` not less than this `ρ'`: for
 //! `(ρ - e) / 3 |z_n|²`, and for the larger of 1 and `ρ - e`. Each of the two numbers of a
 //! hypercomplex one may move by `ρ`, which moves the root of their mean square by no more; the
-//! longer one counts on the way back.
+//! longer one is used on the way back.
 //!
 //! **Near the set** balls around the orbits of eight stretches decide, as for the eight stretches
 //! of a single ray. How near, and how long the stretches are at first, depends on the orbit's
@@ -36,18 +36,18 @@ use durer_math::scale::pow2;
 use durer_math::{Aabb, F8, Isa, M8, Point3, U, Vec3};
 use std::sync::Arc;
 
-/// Relative to the orbit's stretching of a unit length: nearer than this the set is examined along
-/// stretches,
+/// Below this distance from the set, in units of the factor from lengths of the orbit to those in
+/// space, lines are examined in stretches.
 const NEAR: f64 = 4.0;
-/// which start as long as this.
+/// The length of the first stretch, in the same units.
 const STRETCH: f64 = 6.0;
 /// The factor from one stretch to the next.
 const LONGER: f64 = 1.3;
-/// The greatest length of a stretch. After a stretch of half of that a point's distance bound is
-/// computed.
+/// The greatest length of a stretch. After a stretch of half this length a point's distance bound
+/// is computed.
 const LONGEST: f64 = 2.0;
-/// Stretches no shorter than this are computed in f32, whose rounding is small beside what such a
-/// long stretch leaves undecided.
+/// Stretches at least this long are computed in f32, whose rounding is small compared with the
+/// uncertainty of such a long stretch.
 const COARSE: f64 = pow2(-13);
 /// An orbit beyond this has certainly escaped.
 const GONE: f64 = pow2(40);
@@ -87,7 +87,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
     }
 
     /// Lower bounds of the distance from points of lines to the set, along the lines; and the
-    /// factor by which lengths in space are less than those of the orbit.
+    /// factor from lengths of the orbit to those in space.
     #[inline(never)]
     fn clearance(&self, line: &Line8, s: &F8, room: &mut F8, stretch: &mut F8) {
         line.isa.run_in_lanes(
@@ -140,8 +140,8 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         squares
     }
 
-    /// From a ball without the set around the next point to one around this point; and the
-    /// stretching of the orbit from here, as long as it is near.
+    /// Converts a ball around the next point that contains no point of the set to one around this
+    /// point; and updates the orbit's stretching from here, as long as the orbit is near.
     #[inline(always)]
     fn back(&self, squares: &[F8; M], over: f64, free: &mut F8, slope: &mut [F8; M]) {
         let rule = &self.rule;
@@ -177,7 +177,7 @@ impl<const M: usize, const C: usize> Solid<M, C> {
         }
     }
 
-    /// `|z_N|²`, the last points and the balls around them; escaped points are somewhere far out.
+    /// `|z_N|²`, the last points and the balls around them; escaped points are anywhere far out.
     #[inline(always)]
     fn last(&self, balls: &mut [Ball<f64, C>; M]) -> F8 {
         let Rule { power, c_err, c_size, .. } = self.rule;
@@ -334,7 +334,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
                 let mid = (told.a + told.b) * 0.5;
                 let half = (told.b - told.a) * (0.5 * (1.0 + 4.0 * U)) + mid.abs() * (2.0 * U);
                 let mut balls = self.balls(line, mid, half);
-                // Lanes that are not asked must not delay the others.
+                // Inactive lanes must not delay the others.
                 for ball in &mut balls {
                     ball.q[0].0 = told.lanes.select(F8(ball.q[0].0), F8::splat(4.0 * self.rule.radius)).0;
                 }
@@ -366,7 +366,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
                 let size = square.sqrt();
                 let e = (size * 2.0 + r) * r + (square + level) * (32.0 * U);
                 let g = square - level;
-                // The same sign, and less steep far out.
+                // A value with the same sign, but less steep far out.
                 value.g = g / (square + level);
                 (value.above, value.below) = (g.gt(e), g.lt(-e));
             },
@@ -407,7 +407,7 @@ impl<const M: usize, const C: usize> ImplicitKernel for Solid<M, C> {
         isa.run_in_lanes(
             #[inline(always)]
             || {
-                // Only what is asked for is computed.
+                // Only the requested data are computed.
                 let gradient = gradient8(&self.rule, &self.lift, self.rule.iterations, y, &F8::ZERO);
                 let Gradient { square, half, .. } = gradient;
                 *slant = Slant { f: square - self.rule.radius * self.rule.radius, half };

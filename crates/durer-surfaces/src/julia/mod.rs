@@ -119,7 +119,7 @@ enum Algebra {
 #[derive(Clone, Debug)]
 struct Solid<const M: usize, const C: usize> {
     rule: Rule<f64, M, C>,
-    /// The same iteration in f32, for packets.
+    /// The iteration in f32, for packets.
     coarse: Rule<f32, M, C>,
     lift: Lift<M, C>,
     /// The radius of a ball about the origin that strictly holds the set.

@@ -1,4 +1,4 @@
-//! Orbits of balls: what is certain about `|z_n|` on eight stretches of a line at once.
+//! Orbits of balls: certain bounds on `|z_n|` on eight stretches of a line at once.
 //!
 //! Along a stretch `s = mid + half x`, `|x| <= 1`, the orbit's `n`-th point and its derivative by
 //! `x` are

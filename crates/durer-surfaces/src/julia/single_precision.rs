@@ -1,4 +1,4 @@
-//! Orbits in f32, for stretches that are long beside its rounding.
+//! Orbits in f32, for stretches that are long compared with its rounding.
 //!
 //! Eight f32 fill one AVX2 register; the ten numbers of an orbit's step, eight times in f64, do not
 //! fit into all of them.
@@ -46,8 +46,8 @@ impl<const C: usize> Ball<f64, C> {
         points
     }
 
-    /// The same stretches in f32, slightly wider: the rounding of middles and slopes is added to
-    /// their errors.
+    /// The stretches in f32, slightly wider: the rounding of middles and slopes is added to their
+    /// errors.
     #[inline(always)]
     pub(super) fn rounded(&self) -> Ball<f32, C> {
         // Each sum of magnitudes is rounded by less than a millionth of it, and no root of a sum of
@@ -70,7 +70,7 @@ impl<const C: usize> Ball<f64, C> {
 }
 
 impl<const M: usize, const C: usize> Rule<f64, M, C> {
-    /// The same in f32.
+    /// The rule in f32.
     pub(super) fn rounded(&self) -> Rule<f32, M, C> {
         let off = |x: f64| (x - f64::from(x as f32)).abs();
         let c_off = self.c.iter().map(|c| c.iter().map(|&x| off(x)).sum()).fold(0.0, f64::max);

@@ -161,8 +161,8 @@ pub(super) struct Contact<'a, 'r> {
 }
 
 impl Contact<'_, '_> {
-    /// What a face reports whose edges the line passes on these sides, zero on an edge; `crosses`
-    /// tells whether the displaced line meets the face.
+    /// The report of a face whose edges the line passes on these sides, zero on an edge; `crosses`
+    /// is whether the displaced line meets the face.
     pub(super) fn report(&self, face: u32, sides: [i8; 3], crosses: bool) -> Option<Report> {
         let [a, b, c] = self.fans.corners(&self.mesh.data, face);
         let own = match sides {

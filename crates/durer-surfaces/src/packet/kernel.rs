@@ -44,9 +44,9 @@ pub(crate) struct FacePoints {
 
 /// A surface for eight rays at a time, in its own coordinates.
 ///
-/// What a kernel says is certain; where rounding leaves something open it reports a doubt, and the
-/// ray asks the surface itself. Calls go through a table of functions, so each method enters the
-/// instruction set of its rays by itself.
+/// Answers of a kernel are certain; where rounding leaves something open it reports a doubt, and
+/// the ray is tested against the surface itself. Calls go through a table of functions, so each
+/// method enters the instruction set of its rays by itself.
 pub(crate) trait PacketKernel: Debug + Send + Sync {
     /// The `Root::face` of the face with this number.
     fn face_of(&self, number: u32) -> u32;
@@ -195,8 +195,7 @@ pub(super) struct Detail {
     pub(super) kernel: Arc<dyn PacketKernel>,
 }
 
-/// Working memory of kernels: one value of each type that a kernel has asked for, the last one in
-/// front.
+/// Working memory of kernels: one value of each type that a kernel has used, the last one in front.
 #[derive(Debug, Default)]
 pub(crate) struct KernelScratch(Vec<(TypeId, Box<dyn Any + Send + Sync>)>);
 

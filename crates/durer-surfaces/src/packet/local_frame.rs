@@ -40,7 +40,7 @@ pub(crate) struct Own {
 
 impl OwnSketch {
     /// Coordinates in units of `2^scale` about `origin`, with the axes in this order, for points
-    /// counted from `centre`.
+    /// relative to `centre`.
     pub(crate) fn new(centre: Point3, origin: Point3, scale: i32, order: [usize; 3]) -> Self {
         let zero = || N::exact(0.0);
         let axes = order.map(|axis| {

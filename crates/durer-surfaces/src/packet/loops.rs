@@ -6,10 +6,10 @@
 //!
 //! Vertices of a polygon may lie off its plane by a small distance `δ`, and the exact ray is tested
 //! against the edges between the stored vertices. Moved into the plane along the ray, a vertex is
-//! at most `δ / cos θ` from its foot, with `θ` the angle between ray and normal. The same holds for
-//! points of the moved edges and the edges between feet, which `level` and `side` describe. A point
-//! that is farther than that from a level, or from the line of an edge that passes its level, is on
-//! the same side of both.
+//! at most `δ / cos θ` from its perpendicular foot, with `θ` the angle between ray and normal. The
+//! same holds for points of the moved edges and of the edges between the feet, which `level` and
+//! `side` describe. A point that is farther than that from a level, or from the line of an edge
+//! that passes its level, is on the same side of both.
 
 use super::closest::Spot;
 use super::quadric::{QuadricFace8, Seen};
@@ -32,17 +32,16 @@ pub(super) struct Loops<F> {
 pub(super) struct Off {
     /// The greatest distance.
     pub(super) distance: f64,
-    /// Points of the plane up to this far outside the feet of the outlines still lie in the
-    /// polygon's box.
+    /// Points of the plane within this distance of the projected outlines lie in the polygon's box.
     pub(super) room: f64,
 }
 
 /// An edge.
 #[derive(Clone, Debug)]
 pub(super) struct Edge<F> {
-    /// The height above its start.
+    /// The height above the edge's start.
     pub(super) level: F,
-    /// Positive to its right.
+    /// Positive to the right of the edge.
     pub(super) side: F,
 }
 

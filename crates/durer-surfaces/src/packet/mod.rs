@@ -4,8 +4,8 @@
 //! `f_j` is positive, so one short formula serves them all. A [`PacketFilter`] holds those
 //! polynomials in the world's frame, rounded to f64 with a bound on the rounding. For each ray it
 //! gives one of three answers: a certain miss, a certain first face, or *doubt*. In doubt the ray
-//! asks the surface itself. So a filter saves work and never decides anything that the exact
-//! kernels would decide otherwise.
+//! is tested against the surface itself. So a filter saves work and never contradicts the exact
+//! kernels.
 //!
 //! ```text
 //!   source.rs           polynomials in double-double, moved by maps (built once)

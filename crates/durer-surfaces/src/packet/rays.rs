@@ -33,8 +33,8 @@ pub struct From8 {
 }
 
 impl From8 {
-    /// The same rays by the surface's own normals. Those of hits are opposite if the surface is
-    /// `turned`.
+    /// Converts the rays' sides to those of the surface's own normals, which are opposite to those
+    /// of hits if the surface is `turned`.
     #[inline(always)]
     pub(crate) fn by_own_normals(&self, turned: bool) -> Self {
         Self { back: if turned { !self.back } else { self.back }, ..*self }

@@ -30,7 +30,7 @@ fn times(v: Vec3<F8>, k: F8) -> Vec3<F8> {
 impl PacketFilter {
     /// Stores the points at `t` on face `i` for some lanes, from the data in
     /// [`Nearest`](super::Nearest), moved onto the face by one step of Newton's method. Returns the
-    /// lanes for which everything is proven; the others must ask the surface itself.
+    /// lanes for which everything is proven; the others must use the surface itself.
     ///
     /// With `|f(p)| <= η`, gradient `G` and `|Hessian| <= h`, a start at `p ± off n + τ` has
     /// `|f| >= off |G| - h (off² + |τ|²) - η`. Where `x = 4 h η / |G|²` is small,

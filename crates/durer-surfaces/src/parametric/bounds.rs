@@ -5,10 +5,10 @@ use crate::Container;
 use durer_math::eft::scale2;
 use durer_math::{Aabb, Interval, Point3, U};
 
-/// Pays for a few roundings of bounds.
+/// Covers a few roundings of bounds.
 const ROUNDED: f64 = 1.0 + 32.0 * U;
 
-/// A box, endless if need be, and a ball if there is one.
+/// A box, which may be unbounded, and a ball if there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bounds {
     low: [f64; 3],
@@ -25,7 +25,7 @@ impl Bounds {
         *self == Self::NONE
     }
 
-    /// Those of a container.
+    /// The bounds of a container.
     pub(super) fn of(container: &Container) -> Self {
         match container {
             Container::Box(it) => {
@@ -40,7 +40,7 @@ impl Bounds {
         }
     }
 
-    /// A box around them.
+    /// A box that holds them.
     pub(super) fn hull(&self) -> Aabb {
         let point = |[x, y, z]: [f64; 3]| Point3::new(x, y, z);
         Aabb::new(point(self.low), point(self.high))
@@ -74,7 +74,7 @@ impl Bounds {
         })
     }
 
-    /// The same, at least, in units.
+    /// The bounds in units, rounded outward.
     pub(super) fn in_units(&self, unit: &Unit) -> Self {
         let mut out = self.clone();
         let mut moved = 0.0_f64;

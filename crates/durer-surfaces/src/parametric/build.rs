@@ -1,27 +1,27 @@
 //! Cutting a map into pieces, ahead of all rays: until each is so flat that a ray which is not
 //! nearly tangent meets it at most once, and finds that crossing by Newton's method.
 //!
-//! Pieces outside of the container are left out. So are parts in which nothing is defined, and what
-//! is left around a pole of the formula, where it has no bounds, after fifty halvings or where there
+//! Pieces outside of the container are left out. So are parts in which nothing is defined, and the
+//! rest around a pole of the formula, where it has no bounds, after fifty halvings or once there
 //! are too many pieces.
 
 use super::Bounds;
 use super::piece::{Face, Piece, Unit};
 use std::collections::VecDeque;
 
-/// A piece is flat if its slopes change by less than this part of themselves, seen along the
-/// normal.
+/// A piece is flat if its slopes change relatively by less than this, seen along the normal.
 const FLAT: f64 = 0.25;
-/// No piece is halved more often than this along one parameter, unless it has no bounds.
+/// The most halvings of a piece along one parameter, unless it has no bounds.
 const FINEST: u32 = 10;
-/// What has no bounds after so many halvings along one parameter is left out.
+/// A part that has no bounds after this many halvings along one parameter is left out.
 const UNBOUNDED: u32 = 50;
-/// The maps of a sheet are cut into about so many pieces together, or into [`LEAST`] each.
+/// The approximate number of pieces of all maps of a sheet together, if that is more than [`LEAST`]
+/// each.
 const MOST: usize = 1 << 14;
-/// A map may be cut into so many pieces, however many maps there are.
+/// The number of pieces into which each map may be cut, however many maps there are.
 const LEAST: usize = 1 << 9;
-/// A piece that may jump and is cut as finely as can be is at most this part of the whole large,
-/// unless it does jump.
+/// A piece that may jump and is cut as finely as possible is at most this large, relative to the
+/// whole, unless it does jump.
 const TORN: f64 = 1.0 / 64.0;
 
 /// Why there are no pieces.
@@ -94,7 +94,7 @@ fn pieces(
         } else if piece.is_bounded() {
             change[1] > change[0]
         } else {
-            // One halving may not be enough for bounds: both parameters have their turn.
+            // One halving may not be enough for bounds: parameters take turns.
             halved[1] < halved[0]
         };
         let k = if may == [true; 2] { usize::from(second) } else { usize::from(may[1]) };
@@ -102,7 +102,7 @@ fn pieces(
         halved[k] += 1;
         open.extend(along(k).map(|kid| Open { piece: *kid, halved }));
     }
-    // Where the formula jumps there would be a gap: such a map is no sheet.
+    // A jump of the formula would be a gap: such a map is no sheet.
     let whole = size(&out[first..]);
     for at in torn {
         let piece = &out[at];
@@ -113,7 +113,7 @@ fn pieces(
     Ok(())
 }
 
-/// How far a piece is from being flat; parts without bounds first.
+/// The priority for cutting a piece: its deviation from flat; parts without bounds come first.
 fn cost(piece: &Piece, bounds: &Bounds) -> f64 {
     if bounds.are_missed_by(&piece.hull) {
         0.0

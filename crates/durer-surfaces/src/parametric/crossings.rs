@@ -36,8 +36,8 @@ fn is_shared(a: &Found, b: &Found, (faces, gap): (&[Face], f64)) -> bool {
     alike && (a.s - b.s).abs() <= room && on_border(a, faces) && on_border(b, faces)
 }
 
-/// Joins what is the same crossing: found in two pieces, on their common border, on a seam; or parts
-/// that touch each other and in which nothing is proven. Edges that are one are within `gap`.
+/// Joins duplicates: a crossing found in two pieces, on their common border or on a seam, and
+/// unproven parts that touch each other. Edges that coincide are within `gap`.
 pub(super) fn distinct<'f>(found: &'f mut Vec<Found>, faces: &[Face], gap: f64) -> &'f [Found] {
     if found.len() < 2 {
         return found;

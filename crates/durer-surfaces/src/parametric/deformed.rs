@@ -246,7 +246,7 @@ impl Formulas {
     }
 }
 
-/// Writes down the point of a patch.
+/// Appends the point of a patch to the formula.
 fn point(pen: &mut ExprBuilder, net: &FaceNet, [u, v]: [NodeId; 2]) -> Result<[NodeId; 3], FormulaError> {
     let (points, weights) = match net {
         FaceNet::Square(net) => {
@@ -308,7 +308,7 @@ fn enclosed(x: Dd) -> Interval {
     Interval { lo: near.next_down(), hi: near.next_up() }
 }
 
-/// Writes down where a point comes to.
+/// Appends the image of a point to the formula.
 fn moved(
     pen: &mut ExprBuilder,
     mut p: [NodeId; 3],

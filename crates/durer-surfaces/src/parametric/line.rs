@@ -5,9 +5,8 @@
 //!   F = (X - k_x Z,  Y - k_y Z),   (X, Y, Z) = S(u, v) - o,   k_x = d_x / d_z,  |d_z| the largest
 //! ```
 //!
-//! What the ray is not exactly known by, and every rounding, is charged to `F`, so that a piece is
-//! left out only if no ray within these errors meets it, and neighbours need not agree on any
-//! rounding.
+//! The errors of `F` include those of the ray and every rounding. So a piece is left out only if no
+//! ray within these errors meets it, and neighbours need not agree on any rounding.
 
 use super::Bounds;
 use super::piece::{Domain, Face, Piece, Unit, around, lane_of, slope_of};
@@ -17,19 +16,19 @@ use durer_math::eft::scale2;
 use durer_math::{Interval, U};
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, inverse, zero_in};
 
-/// Steps of Newton's method: from a start in its basin, six give all digits.
+/// The most steps of Newton's method: from a start in its basin, six give all digits.
 const NEWTON: usize = 8;
-/// A step below this part of a piece's width is followed by one below the rounding errors.
+/// After a step below this, relative to a piece's width, the next one is below the rounding errors.
 const NEAR: f64 = durer_math::scale::pow2(-24);
-/// Half-widths of the boxes, in widths of the piece, in which a zero is proven: the least one that
-/// serves gives the sharpest bracket.
+/// Half-widths of the boxes, in widths of the piece, in which a zero is proven. The least one that
+/// succeeds gives the narrowest bracket.
 const RADII: [f64; 8] = [0.0, pow2(-51), pow2(-48), pow2(-45), pow2(-41), pow2(-36), pow2(-30), pow2(-22)];
 
 const fn pow2(n: i32) -> f64 {
     durer_math::scale::pow2(n)
 }
 
-/// A line as a map sees it.
+/// A line relative to a map.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     pub(super) line: &'a Line,
@@ -38,24 +37,24 @@ pub(super) struct View<'a> {
     pub(super) cut: &'a Bounds,
 }
 
-/// A crossing of a line and a map, or what may be one.
+/// A proven or possible crossing of a line and a map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) face: u32,
-    /// The parameters, and how far off they may be.
+    /// The parameters, and bounds on their errors.
     pub(super) uv: [f64; 2],
     pub(super) radius: [f64; 2],
-    /// It is the only crossing in this box; empty if nothing is proven.
+    /// A box in which it is the only crossing; empty if nothing is proven.
     pub(super) only: Domain,
     pub(super) s: f64,
     pub(super) s_err: f64,
     /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
     pub(super) sign: i8,
-    /// Where nothing is proven: that sign at some points round about, 0 if they differ.
+    /// If nothing is proven: that sign at some points nearby, 0 if they differ.
     pub(super) turn: i8,
 }
 
-/// No parameters.
+/// The empty box.
 pub(super) const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
 
 impl View<'_> {
@@ -77,7 +76,8 @@ impl View<'_> {
         (f, e)
     }
 
-    /// The slopes of both functions, and bounds on their errors, each for both parameters.
+    /// The slopes of both functions, and for each function a bound on the errors by both
+    /// parameters.
     #[inline(always)]
     fn slopes(&self, j: &[[f64; 2]; 3], err: &[[f64; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
         let Line { axes, slope, slope_err, .. } = self.line;
@@ -90,14 +90,14 @@ impl View<'_> {
                 let (ex, ez) = (err[axes[i]][k], err[axes[2]][k]);
                 let given = size.mul_add(ez, ex) + slope_err[i] * (z.abs() + ez);
                 let off = (given + 2.0 * U * size.mul_add(z.abs(), x.abs())) * ROUNDED;
-                // A slope of which nothing is known is off by infinity, not NaN.
+                // An unbounded slope has an infinite error, not NaN.
                 e[i] = e[i].max(if off.is_nan() { f64::INFINITY } else { off });
             }
         }
         (out, e)
     }
 
-    /// Bounds of both functions in a box of points: whether both may vanish.
+    /// Whether both functions may vanish in a box of points.
     #[inline(always)]
     fn may_vanish(&self, hull: &[Interval; 3]) -> bool {
         if hull.iter().any(|x| !(x.lo.is_finite() && x.hi.is_finite())) {
@@ -109,7 +109,7 @@ impl View<'_> {
         (0..2).all(|i| f[i].abs() <= e[i])
     }
 
-    /// A piece as Krawczyk's test takes it.
+    /// The data of a piece for Krawczyk's test.
     #[inline(always)]
     pub(super) fn local(&self, piece: &Piece) -> (Local, Limits) {
         let (f, e) = self.values(&piece.p, &piece.p_err);
@@ -117,19 +117,20 @@ impl View<'_> {
         (Local { f, j }, Limits { e, e_j, h: [[0.0; 3]; 2] })
     }
 
-    /// The content of a piece.
+    /// Whether a piece holds no crossing, at most one (then near a known place), or an unknown
+    /// number.
     #[inline(always)]
     pub(super) fn content(&self, piece: &Piece) -> Content {
         if !self.may_vanish(&piece.hull) {
             return Content::Nothing;
         }
         let (local, limits) = self.local(piece);
-        // Slopes are bounded on the wide box, so what is said of them holds there.
+        // Slopes are bounded on the wide box, so the result holds there.
         limits.content(&local, piece.half(), 1.0)
     }
 
-    /// Looks for the one crossing that a piece may hold, near `start`, which counts from its middle
-    /// in widths. Whether that is decided.
+    /// Searches for the one crossing that a piece may hold, near `start`, which is relative to its
+    /// middle, in widths. Returns whether that is decided.
     pub(super) fn meet_at_most_one(&self, piece: &Piece, start: [f64; 2], out: &mut Vec<Found>) -> bool {
         let mut x = [0, 1].map(|k| start[k].mul_add(piece.width[k], piece.middle[k]));
         let mut tries = 0;
@@ -143,7 +144,7 @@ impl View<'_> {
                 let proven = self.proven(piece, x);
                 crate::steps::evaluated(1, proven.is_some());
                 if let Some(found) = proven {
-                    // Another one may still be in the box if this one is outside.
+                    // If this one is outside the box, another one may be in it.
                     let within = |k: usize| {
                         let ([from, to], [at, off]) = (piece.wide[k], [found.0.uv[k], found.0.radius[k]]);
                         from <= at - off && at + off <= to
@@ -202,7 +203,7 @@ impl View<'_> {
             }
             let (rows, e_j) = self.slopes(&j, &j_err);
             let Some(zero) = zero_in(&Local { f, j: rows }, (&e, &e_j), r) else { continue };
-            // Where the crossing is in space.
+            // The crossing's place in space.
             let mut hull = [Interval::ENTIRE; 3];
             for c in 0..3 {
                 let (mut at, mut err) = (p[c], p_err[c]);
@@ -225,7 +226,7 @@ impl View<'_> {
         None
     }
 
-    /// The third coordinate of a box in space, counted from the line's origin, and its error.
+    /// The third coordinate of a box in space, relative to the line's origin, and its error.
     fn depth(&self, x: &Interval) -> (f64, f64) {
         let middle = 0.5 * x.lo + 0.5 * x.hi;
         let half = (x.hi - middle).max(middle - x.lo);
@@ -233,7 +234,7 @@ impl View<'_> {
         (z, (half + self.line.o_err[2] + U * z.abs()) * ROUNDED)
     }
 
-    /// Whether a crossing may be in a piece's own box, to which a little beyond the domain belongs.
+    /// Whether a crossing may be in a piece's own box, including the slack beyond the domain.
     fn belongs(&self, piece: &Piece, (found, _): &(Found, [Interval; 3])) -> bool {
         (0..2).all(|k| {
             let ([from, to], [first, last]) = (piece.own[k], self.face.domain[k]);
@@ -247,7 +248,7 @@ impl View<'_> {
         self.cut.are_missed_by(hull)
     }
 
-    /// A piece in which crossings cannot be told from misses.
+    /// An unproven crossing: a piece in which rounding hides whether there is one.
     pub(super) fn unresolved(&self, piece: &Piece) -> Found {
         let (z, z_err) = self.depth(&piece.hull[self.line.axes[2]]);
         let (s, s_err) = self.line.along(z, z_err);

@@ -10,10 +10,10 @@
 //!
 //! A ray meets it where two functions of `u` and `v` vanish. The rectangle is cut into pieces in
 //! advance (`build.rs`); interval arithmetic bounds the formulas and their slopes on each
-//! (`piece.rs`). A line leaves out the pieces that it provably misses, and elsewhere finds its
-//! crossing by Newton's method and proves it by Krawczyk's (`line.rs`, `roots/two_unknowns.rs`).
-//! Near a silhouette and near a pole a piece is cut further (`subdivide.rs`). What is then as small
-//! as the rounding errors and still open is reported as [`RootKind::Grazing`] or
+//! (`piece.rs`). A ray skips the pieces that it provably misses. On others Newton's method finds
+//! its crossing and Krawczyk's test proves it (`line.rs`, `two_unknowns.rs` of durer-roots). Near a
+//! silhouette and near a pole a piece is cut further (`subdivide.rs`). A part that is as small as
+//! the rounding errors and still open is reported as [`RootKind::Grazing`] or
 //! [`RootKind::Cluster`].
 //!
 //! D. L. Toth, "On ray tracing parametric surfaces", *SIGGRAPH* 1985; J. M. Snyder, "Interval
@@ -63,7 +63,8 @@ pub use deformed::{DeformSource, DeformedSurface};
 pub use path::PathSpline;
 pub use sweep::{PathSweep, SweepData, SweepError};
 
-/// Into so many parts each parameter is divided to see whether a container holds all of a surface.
+/// The number of parts into which each parameter is divided to check whether a container holds all
+/// of a surface.
 const CHECKED: usize = 64;
 
 /// Why a [`Parametric`] cannot exist.
@@ -98,7 +99,7 @@ pub enum ParametricError {
         /// The second parameter.
         v: f64,
     },
-    /// The surface is endless and nothing bounds it.
+    /// The surface is unbounded, and there is no container.
     #[error("parametric: it has no bounds near u = {u}, v = {v}, and no container")]
     Unbounded {
         /// The first parameter.
@@ -106,7 +107,7 @@ pub enum ParametricError {
         /// The second parameter.
         v: f64,
     },
-    /// Nothing of it is defined and within the container.
+    /// No part of it is defined and within the container.
     #[error("parametric: nothing of it is in its container")]
     Nothing,
 }

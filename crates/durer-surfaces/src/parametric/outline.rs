@@ -1,8 +1,8 @@
-//! Outlines of a sweep's profile: which way they go round, and what they surround.
+//! Outlines of a sweep's profile: their orientation and what they enclose.
 
 use crate::prism::curved::Bezier;
 
-/// Twice the area within an outline of its control points' chords, with a sign.
+/// Twice the signed area of the polygon of an outline's control points.
 fn area(outline: &[Bezier]) -> f64 {
     let points = outline.iter().flat_map(|piece| piece[..3].iter());
     let points: Vec<_> = points.collect();
@@ -10,8 +10,8 @@ fn area(outline: &[Bezier]) -> f64 {
     (0..points.len()).map(|k| points[k][0] * next(k)[1] - points[k][1] * next(k)[0]).sum()
 }
 
-/// The outlines, each with the inside of the profile to its left: those within an odd number of
-/// others are holes.
+/// Orients the outlines so that the inside of the profile is to their left. An outline within an
+/// odd number of others is a hole.
 pub(super) fn oriented(outlines: &[Vec<Bezier>]) -> Vec<Vec<Bezier>> {
     let crosses = |[x, y]: [f64; 2], piece: &Bezier| {
         piece.windows(2).fold(false, |odd, w| {
@@ -37,7 +37,7 @@ pub(super) fn oriented(outlines: &[Vec<Bezier>]) -> Vec<Vec<Bezier>> {
     out
 }
 
-/// A point in the middle of the profile, beside its symmetries.
+/// A point near the middle of the profile, off its likely axes of symmetry.
 pub(super) fn centre(pieces: &[Bezier]) -> [f64; 2] {
     [0, 1].map(|k: usize| {
         let (low, high) = pieces

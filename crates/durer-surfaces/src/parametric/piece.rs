@@ -1,6 +1,6 @@
-//! Parts of a sheet: what intervals say of a formula on a box of parameters.
+//! Parts of a sheet: interval bounds of a formula on a box of parameters.
 //!
-//! In a box `X` about `m`, with slopes that intervals bound there,
+//! In a box `X` about `m`, with interval bounds `S'(X)` of the slopes,
 //!
 //! ```text
 //!   S(x) in S(m) + S'(X) (x - m)
@@ -14,17 +14,17 @@ use durer_formula::{VectorTape, lanes};
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Interval, U, Vec3};
 
-/// How far beyond a box its slopes hold, in widths of the box.
+/// The margin around a box in which its bounds on slopes hold, in widths of the box.
 const MARGIN: f64 = 1.0 / 16.0;
 /// A crossing within this many units in the last place of an end of the domain belongs to it: an
 /// end such as 2 pi is rounded, and a seam must not have a gap.
 const END_ULPS: f64 = 4.0;
-/// How far beyond its ends a formula is looked at, in widths of the domain.
+/// The margin around the domain in which a formula is evaluated, in widths of the domain.
 const BEYOND: f64 = 1.0 / 64.0;
-/// Pays for a few roundings of bounds.
+/// Covers a few roundings of bounds.
 const ROUNDED: f64 = 1.0 + 32.0 * U;
 
-/// Pays for slopes below the normal range.
+/// Covers slopes below the normal range.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// A box of parameters: from the least to the greatest of each.
@@ -35,14 +35,14 @@ pub(super) type Domain = [[f64; 2]; 2];
 pub(super) struct Face {
     pub(super) tape: VectorTape,
     pub(super) domain: Domain,
-    /// As far as the formula is looked at.
+    /// The parameters at which the formula may be evaluated.
     known: Domain,
-    /// How far beyond its ends the domain is taken to reach.
+    /// The slack by which the domain is extended beyond its ends.
     pub(super) slack: [f64; 2],
 }
 
-/// What is known of a map on a box. Lengths are in units; slopes are by parameters that are divided
-/// by the width of the box.
+/// Bounds of a map on a box. Lengths are in units; slopes are by parameters divided by the width of
+/// the box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) face: u32,
@@ -54,16 +54,16 @@ pub(super) struct Piece {
     /// The point in the middle, and a bound on its error along each axis.
     pub(super) p: [f64; 3],
     pub(super) p_err: [f64; 3],
-    /// The slopes in the wide box, by axis and parameter, and how far they may be off there.
+    /// The slopes in the wide box, by axis and parameter, and bounds on their errors there.
     pub(super) slope: [[f64; 2]; 3],
     pub(super) slope_err: [[f64; 2]; 3],
-    /// A box that holds the own part.
+    /// A box in space that holds the map of the piece's own parameters.
     pub(super) hull: [Interval; 3],
-    /// The formula may jump in it.
+    /// Whether the formula may jump in it.
     pub(super) jumps: bool,
 }
 
-/// The middle of an interval and how far its ends are from there.
+/// The middle of an interval, and a bound on the distance of its ends.
 fn about(x: Interval) -> (f64, f64) {
     let middle = 0.5 * x.lo + 0.5 * x.hi;
     if !middle.is_finite() {
@@ -76,7 +76,7 @@ impl Face {
     pub(super) fn new(tape: VectorTape, domain: Domain) -> Self {
         let slack = domain.map(|[a, b]| END_ULPS * f64::EPSILON * a.abs().max(b.abs()));
         let mut face = Self { tape, domain, known: domain, slack };
-        // Proofs at an end need the formula beyond it, if it goes on there.
+        // Proofs at an end need the formula beyond it, if it is defined there.
         let mut known = domain;
         for k in 0..2 {
             for end in 0..2 {
@@ -104,7 +104,7 @@ impl Face {
         face
     }
 
-    /// The same, taken to reach beyond its ends by this part of its width.
+    /// Extends the domain beyond its ends by this fraction of its width.
     pub(super) fn reaching(mut self, part: f64) -> Self {
         for k in 0..2 {
             self.slack[k] = part * (self.domain[k][1] - self.domain[k][0]);
@@ -112,7 +112,7 @@ impl Face {
         self
     }
 
-    /// The bounds on each of these boxes; those where nothing is defined are left out.
+    /// Appends the bounds on each of these boxes, except those where nothing is defined.
     pub(super) fn pieces(&self, number: u32, boxes: &[Domain], unit: &Unit, out: &mut Vec<Piece>) {
         for boxes in boxes.chunks(8) {
             let own: [Domain; 8] = core::array::from_fn(|i| boxes[i.min(boxes.len() - 1)]);
@@ -134,8 +134,8 @@ impl Face {
                     let all = [&jet.v, &jet.d.d[0], &jet.d.d[1]];
                     all.iter().any(|x| x.partial >> lane & 1 == 1)
                 });
-                // Where only slopes jump, at a kink, the values between two points differ by what
-                // some slopes between the two sides make of their distance: bounds of both hold.
+                // Where only slopes jump, at a kink, the values at two points differ by their
+                // distance times a slope between those of the two sides: bounds of both hold.
                 let jumps = jets.iter().any(|jet| jet.v.jump >> lane & 1 == 1);
                 let width = own[lane].map(|[from, to]| to - from);
                 let mut piece = Piece {
@@ -180,8 +180,8 @@ impl Face {
 }
 
 impl Piece {
-    /// How far the map's edge may be from where it should be, on a piece at its border: by the rounding
-    /// of the formula, and by how far the domain reaches beyond its ends. 0 for other pieces.
+    /// A bound on the error of the map's edge on a piece at its border: from the rounding of the
+    /// formula, and from the slack of the domain. 0 for other pieces.
     pub(super) fn edge_error(&self, face: &Face) -> f64 {
         let is_at_edge = (0..2).any(|k| {
             let ([from, to], [first, last]) = (self.own[k], face.domain[k]);
@@ -205,13 +205,13 @@ impl Piece {
         of(0).max(of(1)) * ROUNDED
     }
 
-    /// Whether a box holds it.
+    /// Whether a bounded box holds it.
     pub(super) fn is_bounded(&self) -> bool {
         self.hull.iter().all(|x| x.lo.is_finite() && x.hi.is_finite())
     }
 
-    /// By how much the slopes may change in the wide box, as a part of themselves, seen along the
-    /// normal. Below 1 a ray along the normal meets the piece at most once.
+    /// A bound on the relative change of the slopes in the wide box, seen along the normal. Below 1
+    /// a ray along the normal meets the piece at most once.
     pub(super) fn bend(&self) -> f64 {
         let column = |m: &[[f64; 2]; 3], k: usize| Vec3::new(m[0][k], m[1][k], m[2][k]);
         let (a, b) = (column(&self.slope, 0), column(&self.slope, 1));
@@ -222,7 +222,7 @@ impl Piece {
         if bend.is_nan() { f64::INFINITY } else { bend }
     }
 
-    /// By how much the point changes along each parameter, at most.
+    /// A bound on the change of the point along each parameter.
     pub(super) fn change(&self) -> [f64; 2] {
         [0, 1].map(|k| {
             let far = |c: usize| self.slope[c][k].abs() + self.slope_err[c][k];
@@ -240,7 +240,7 @@ impl Piece {
         halves(&self.own, k)
     }
 
-    /// The same in other units, of a piece in the formula's own.
+    /// Converts a piece from the formula's own units to others.
     pub(super) fn in_units(mut self, unit: &Unit) -> Self {
         let back = |x: f64| scale2(x, -unit.scale);
         for c in 0..3 {
@@ -264,7 +264,7 @@ pub(super) fn halves(own: &Domain, k: usize) -> [Domain; 2] {
     [low, high]
 }
 
-/// A centre and a power of two, about and in which lengths are counted.
+/// A frame: coordinates are relative to a centre, in units of a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub(super) centre: [f64; 3],
@@ -275,7 +275,7 @@ impl Unit {
     /// The formula's own.
     pub(super) const OWN: Self = Self { centre: [0.0; 3], scale: 0 };
 
-    /// A coordinate in units, and how far off it may be.
+    /// A coordinate in units, and a bound on its error.
     pub(super) fn place(&self, x: Interval, axis: usize) -> (f64, f64) {
         let (middle, err) = about(x);
         let (p, lost) = two_sum(middle, -self.centre[axis]);
@@ -298,7 +298,7 @@ impl Unit {
     }
 }
 
-/// Boxes of half-widths `r`, in widths of a piece, about a point of it.
+/// The box of half-width `r`, in widths of a piece, about a point of it.
 pub(super) fn around(x: [f64; 2], width: [f64; 2], r: f64) -> Domain {
     [0, 1].map(|k| {
         if r == 0.0 {
@@ -309,13 +309,14 @@ pub(super) fn around(x: [f64; 2], width: [f64; 2], r: f64) -> Domain {
     })
 }
 
-/// The value in a lane and how far off it may be, of one that does not jump.
+/// The value in a lane and a bound on its error; `None` if it may jump or be undefined.
 pub(super) fn lane_of(x: &I8, lane: usize) -> Option<(f64, f64)> {
     let bit = 1_u8 << lane;
     if x.jump & bit == 0 { slope_of(x, lane) } else { None }
 }
 
-/// The slope in a lane and how far off it may be; at a kink it has all values between both sides.
+/// The slope in a lane and a bound on its error; `None` if it may be undefined. At a kink it has
+/// all values between those of both sides.
 pub(super) fn slope_of(x: &I8, lane: usize) -> Option<(f64, f64)> {
     let bit = 1_u8 << lane;
     ((x.partial | x.empty) & bit == 0).then(|| about(x.lane(lane)))

@@ -14,10 +14,11 @@ const TINY: f64 = pow2(-500);
 /// The least distance at which rays start from the surface, in units: far enough for f64 to decide
 /// on which side of a crossing's bracket the start is.
 const CLEAR: f64 = 256.0 * U;
-/// Slopes are taken to span no plane if the area between them is this part of their largest.
+/// Slopes span no plane if the area between them is at most this, relative to the product of their
+/// magnitudes.
 const FLAT: f64 = pow2(-36);
-/// How far from a place others are looked at, in widths of the domain: for second derivatives, which
-/// need only be known roughly, and for the limit of normals at a pole.
+/// The distance to neighbouring samples, in widths of the domain: for second derivatives, which
+/// need not be accurate, and for the limit of normals at a pole.
 const ASIDE: f64 = pow2(-18);
 
 /// A point and its slopes, in units, by parameters from 0 to 1.

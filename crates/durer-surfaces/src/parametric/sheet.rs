@@ -15,8 +15,8 @@ use durer_math::eft::{exponent, scale2};
 use durer_math::{Aabb, Point3, U, Vec3};
 use durer_roots::two_unknowns::Content;
 
-/// Pieces farther than this from the ray's range, in units, are not looked at: far more than any
-/// bracket of a proven crossing is wide.
+/// Pieces farther than this from the ray's range, in units, are skipped. The bracket of a proven
+/// crossing is far narrower.
 const ROOM: f64 = 1.0 / 1024.0;
 
 /// Maps in units about a common centre.
@@ -40,7 +40,7 @@ pub(super) struct Sheet {
     tree: Tree,
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
     nodes: Vec<u32>,
@@ -52,10 +52,10 @@ thread_local! {
 }
 
 impl Sheet {
-    /// The sheet of these maps, as far as it is within `bounds`; `None` if nothing is.
+    /// The part of the sheet of these maps within `bounds`; `None` if it is empty.
     ///
-    /// Edges of maps that are to be one are within `gap` of each other, in units, besides what the
-    /// formulas are off by there. An error says which map is refused.
+    /// Edges of maps that coincide are within `gap` of each other, in units, plus the formulas'
+    /// errors there. An error names the map that is refused.
     pub(super) fn new(faces: Vec<Face>, bounds: &Bounds, gap: f64) -> Result<Option<Self>, (u32, Refused)> {
         let mut all = build::all_pieces(&faces, bounds)?;
         let box_of = |piece: &Piece| {

@@ -8,15 +8,16 @@ use durer_math::U;
 use durer_math::scale::pow2;
 use durer_roots::two_unknowns::{Content, ROUNDED};
 
-/// The most times that one ray cuts up parts of a piece; what is then left stays unresolved. A
-/// tangent needs some dozens.
+/// The most times that parts of a piece are cut for one ray; the rest stays unresolved. A tangent
+/// needs some dozens.
 const MOST_CUTS: usize = 1024;
-/// Values of fewer errors than this all over a part cannot be told from zero.
+/// A part on which all values are within this many errors of zero is not cut further.
 const NOISE: f64 = 8.0;
-/// The least width of a part, as a part of the domain's.
+/// The least width of a part, relative to the domain's.
 const LEAST: f64 = pow2(-48);
 
-/// The crossings of a line and a piece, and the parts of it in which none can be told from a miss.
+/// Appends the crossings of a line and a piece, and the parts of it in which crossing and miss
+/// cannot be distinguished.
 pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
     let mut open = vec![*piece];
     let (mut boxes, mut parts) = (Vec::<Domain>::with_capacity(8), Vec::with_capacity(8));

@@ -9,15 +9,16 @@
 //! (1985) 291-303.
 //!
 //! Inside a span of the path the frame is the smallest rotation of the span's first frame onto the
-//! tangent, and then what is left of the turn to the next knot's frame, and the twist, evenly in `u`
-//! (`path.rs`). With `up`, X of a curved span is at right angles to it everywhere. Straight spans
-//! begin and end in the planes that halve the angles of the corners. Each piece of the profile along
-//! each span is one map of a rectangle (`sweep_maps.rs`, `sheet.rs`).
+//! tangent, followed by the rest of the turn to the next knot's frame and the twist, both linear in
+//! `u` (`path.rs`). With `up`, X of a curved span is perpendicular to it everywhere. Straight spans
+//! begin and end in the planes that bisect the corners. Each piece of the profile along each span
+//! is one map of a rectangle (`sweep_maps.rs`, `sheet.rs`).
 //!
-//! The caps are maps too: `q + r (p(v) - q)` for a point `q` of the profile's plane, which covers the
-//! plane as often as the profile goes round it. So walls and caps form closed surfaces with an
-//! orientation, and the solid is where their winding number is not 0. A ray adds up the signs of all
-//! crossings on its line; a crossing counts where the sum leaves 0 or comes back to it.
+//! The caps are maps too: `q + r (p(v) - q)` for a point `q` of the profile's plane, which covers
+//! each point of the plane as often as the profile goes round it. So walls and caps form closed
+//! surfaces with an orientation, and the solid is where their winding number is not 0. A ray adds
+//! up the signs of all crossings on its line; a crossing is one of the solid's where the sum leaves
+//! 0 or returns to it.
 
 use super::bounds::Bounds;
 use super::build::Refused;
@@ -170,7 +171,7 @@ impl PathSweep {
         Ok(Self { data: Arc::new(data), sheet: Arc::new(sheet), pieces: number, walls, open: false })
     }
 
-    /// The same surface without its caps: a sheet.
+    /// The surface without its caps: a sheet.
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
@@ -223,7 +224,8 @@ impl PathSweep {
         kept_turns(all, &self.sheet.faces)
     }
 
-    /// The parameters along the path and along the profile: whole numbers count spans and pieces.
+    /// The parameters along the path and along the profile; their integer parts are the numbers of
+    /// the span and the piece.
     fn uv(&self, face: usize, tag: [f64; 2]) -> [f64; 2] {
         let spans = (self.walls / self.pieces) as f64;
         if face < self.walls {

@@ -1,9 +1,9 @@
 //! Crossings that are passed on before a line has been searched to its end.
 //!
-//! Pieces come in the order in which the line may meet them. A crossing that lies before the next piece
-//! cannot be found again, nor be one that is joined with a later one: both would be in the later
-//! piece's box. So it is passed on, and often no more are wanted. Unproven crossings need the others on
-//! the line; the first of them ends this.
+//! Pieces come in the order in which the line may meet them. A crossing before the next piece is
+//! not found again, and is not joined with a later one: either would have to lie in a later piece's
+//! box. So it is passed on, and often the caller wants no more. Unproven crossings need all others
+//! on the line, so the first of them ends this.
 
 use super::line::Found;
 use super::shell::ROOM;
@@ -11,7 +11,7 @@ use super::shell::ROOM;
 /// How far a search has come.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ahead {
-    /// A piece that may be met only beyond this leaves the first crossings behind.
+    /// Once the next piece begins beyond this, the first crossings are final.
     pub(super) due: f64,
     /// Crossings up to here have been passed on.
     pub(super) sent: f64,
@@ -25,12 +25,12 @@ impl Default for Ahead {
 }
 
 impl Ahead {
-    /// Nothing is passed on before the end, from now on.
+    /// Passes on nothing more before the end.
     pub(super) fn close(&mut self) {
         (self.due, self.is_open) = (f64::INFINITY, false);
     }
 
-    /// Counts crossings that have been found.
+    /// Updates the state for newly found crossings.
     #[inline(always)]
     pub(super) fn note(&mut self, new: &[Found]) {
         if self.is_open {
@@ -51,7 +51,7 @@ impl Ahead {
         let reach = |f: &Found| f.s + f.s_err;
         let end = found[..count].iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
         if found[count..].iter().any(|f| f.s - f.s_err <= end) {
-            // They are left behind together.
+            // They become final together.
             self.due = found.iter().map(reach).fold(self.due, f64::max) + ROOM;
             return 0;
         }

@@ -1,14 +1,15 @@
 //! A line enters and leaves a closed surface alternately.
 //!
-//! Where f64 does not decide, that does: whether the line crosses at an unproven place or touches there,
-//! the order of crossings whose brackets overlap, and whether a crossing that is within its error of
-//! the edge of its patch is on the patch. Beside a sharp edge each of its two patches counts by itself,
-//! and a line that passes the edge within the errors may seem to meet one of them, both, or none.
+//! Where f64 leaves it open, this rule decides whether the line crosses or touches at an unproven
+//! place, the order of crossings whose brackets overlap, and whether a crossing that is within its
+//! error of the edge of its patch is on the patch. Next to a sharp edge its two patches are tested
+//! independently, and a line that passes the edge within the errors may seem to meet one of them,
+//! both, or none.
 
 use super::line::Found;
 
-/// The price of two crossings in the same direction, as of a surface that crosses itself: more than
-/// all candidates cost together.
+/// The cost of two crossings in the same direction, as of a surface that crosses itself: more than
+/// all candidates together.
 const CONTRADICTION: u64 = 1 << 32;
 
 fn touch(a: &Found, b: &Found) -> bool {
@@ -24,10 +25,11 @@ pub(super) fn is_in_doubt(found: &mut [Found], is_on_edge: impl Fn(&Found) -> bo
         || found.windows(2).any(|pair| touch(&pair[0], &pair[1]))
 }
 
-/// Decides what all crossings along a line are; `outward` is -1 if normals point into the solid.
+/// Decides the kind of all crossings along a line; `outward` is -1 if normals point into the solid.
 ///
-/// What may be beyond an edge is a candidate like the unproven ones, and counts as proven again if it
-/// fits. If it does not help, as on a surface that crosses itself, all stays; returns whether it helped.
+/// A crossing that may be beyond an edge is a candidate like the unproven ones, and is proven again
+/// if it fits. If no choice alternates, as on a surface that crosses itself, nothing changes;
+/// returns whether one does.
 pub(super) fn decide(
     found: &mut Vec<Found>,
     outward: i8,
@@ -45,15 +47,15 @@ pub(super) fn decide(
         *found = all;
         return false;
     }
-    // The proof is of the direction in which the patch is crossed, not of another one.
+    // The proof holds for this direction only.
     for (f, _) in found.iter_mut().zip(turns).filter(|(f, turn)| f.is_zero && f.turn == *turn) {
         f.sign = f.turn;
     }
     true
 }
 
-/// Sorts along the line, and joins unproven candidates that may be at the same place: those nearer to
-/// one another than their errors and their own `room`. If their directions differ, the joined one has
+/// Sorts along the line, and joins unproven candidates that may be at the same place: those nearer
+/// to each other than their errors and their `room`. If their directions differ, the joined one has
 /// none.
 pub(super) fn join_unproven(found: &mut Vec<Found>, room: impl Fn(&Found) -> f64) {
     found.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -74,7 +76,7 @@ pub(super) fn join_unproven(found: &mut Vec<Found>, room: impl Fn(&Found) -> f64
     }
 }
 
-/// Exchanges neighbours along a whole line whose brackets overlap and which enter and leave a closed
+/// Swaps neighbours along a whole line whose brackets overlap and which enter and leave a closed
 /// surface in the wrong order.
 pub(super) fn in_turn(found: &mut [Found], outward: i8) {
     let mut inside = false;
@@ -95,7 +97,7 @@ pub(super) fn in_turn(found: &mut [Found], outward: i8) {
     }
 }
 
-/// A crossing on a way through all of them, as a sign, and the side from which the line comes.
+/// One step of a choice for all crossings: the sign, and the side from which the line comes.
 #[derive(Clone, Copy)]
 struct Step {
     sign: i8,
@@ -105,12 +107,13 @@ struct Step {
 /// Decides the directions of unproven candidates, which are sorted along a whole line: both ends of
 /// the line are outside. Returns whether all crossings alternate then.
 ///
-/// A candidate at a vertex stands for the faces beside it, whether the line meets the vertex or passes
-/// it within the rounding; its direction is that in which the line crosses these faces. Of all choices
-/// that alternate, this takes one with the fewest changes: a candidate loses its direction (the line
-/// passes the vertex), or, at a higher price, has another one. Proven crossings stay as they are.
+/// A candidate at a vertex represents the adjacent faces, whether the line meets the vertex or
+/// passes it within the rounding; its direction is that in which the line crosses these faces. Of
+/// all choices that alternate, this takes one of the least cost: a candidate loses its direction
+/// (the line passes the vertex), or, at a higher cost, has another one. Proven crossings do not
+/// change.
 pub(super) fn alternate(found: &mut [Found], outward: i8) -> bool {
-    // The least cost to be outside, and inside, and the last step on the way there.
+    // The least costs of being outside and inside, and the last steps to there.
     let mut costs = [0, CONTRADICTION << 20];
     let mut steps: Vec<[Step; 2]> = Vec::with_capacity(found.len());
     for crossing in &*found {

@@ -13,7 +13,7 @@ use durer_math::{Aabb, Isa, Point3, U, Vec3};
 pub(super) const MARGIN: f64 = 1.0 / 16.0;
 /// How far beyond its borders a cell is evaluated, in widths of the cell.
 pub(super) const EDGE: f64 = durer_math::scale::pow2(-8);
-/// A cell is flat if slopes change by less than this part of themselves, seen along the normal.
+/// A cell is flat if slopes change relatively by less than this, seen along the normal.
 const FLAT: f64 = 0.25;
 /// No cell is halved more often than this along one parameter.
 const FINEST: u32 = 4;
@@ -22,12 +22,12 @@ const SMALL: f64 = durer_math::scale::pow2(-38);
 /// The most points of a row or a column.
 pub(super) const MOST: usize = 16;
 
-/// How trims pass by a cell.
+/// How trims affect a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trimmed {
-    /// All of it stays.
+    /// All of it is kept.
     Not,
-    /// They pass through it.
+    /// Trims pass through it.
     Across,
     /// All of it is cut off.
     Off,
@@ -38,14 +38,14 @@ pub(super) enum Trimmed {
 pub(super) struct Cell {
     /// The patch.
     pub(super) face: u32,
-    /// Whether only its lower left half is of the patch, which is a triangle.
+    /// Whether only its lower left half belongs to the patch, a triangle.
     pub(super) is_half: bool,
     pub(super) trimmed: Trimmed,
     /// The least parameters, in the patch.
     pub(super) from: [f64; 2],
-    /// How far the parameters go on from there.
+    /// The widths of the ranges of parameters.
     pub(super) width: [f64; 2],
-    /// The point from which the net counts, in units.
+    /// The origin of the net's coordinates, in units.
     pub(super) base: [f64; 3],
     pub(super) size: [usize; 2],
     pub(super) net: Box<[Homogeneous<f64>]>,
@@ -55,8 +55,9 @@ pub(super) struct Cell {
     pub(super) first: [Homogeneous<f64>; 2],
     /// Bounds on the second derivatives, also in the margin: along u, mixed, along v.
     pub(super) second: [Homogeneous<f64>; 3],
-    /// Bounds on the error of a point of the net, and of an evaluation, slopes included; as a part
-    /// of the largest local coordinate it is the same for the weight.
+    /// Bounds on the error of a point of the net, and of an evaluation, slopes included. Relative
+    /// to the largest local coordinate they also bound errors of weights, relative to the largest
+    /// weight.
     pub(super) e_net: f64,
     pub(super) e_point: f64,
     pub(super) e_slope: f64,
@@ -66,10 +67,10 @@ pub(super) struct Cell {
     pub(super) reach: f64,
 }
 
-/// How many roundings an evaluation makes of the sum of `|B| |P|`.
+/// The error of an evaluation, in roundings of the sum of `|B| |P|`.
 ///
-/// A cubic's Bernstein polynomials are off by five: `1 - t`, three products, the factor. Others grow
-/// by three with each degree. Each sum of `n` products rounds `n` times.
+/// A cubic's Bernstein polynomials have five roundings: `1 - t`, three products, the factor. Each
+/// further degree adds three. Each sum of `n` products rounds `n` times.
 pub(super) fn sums(size: [usize; 2]) -> f64 {
     let along = |n: usize| if n == 4 { 9.0 } else { 4.0 * n as f64 };
     along(size[0]) + along(size[1])
@@ -135,7 +136,7 @@ fn combine<const NU: usize>(
     out
 }
 
-/// A point of a net and its slopes; the point is off by [`sums`] roundings at most.
+/// A point of a net and its slopes; the point's error is at most [`sums`] roundings.
 #[inline(always)]
 pub(super) fn point_of(net: &[Homogeneous<f64>], size: [usize; 2], x: [f64; 2]) -> [Homogeneous<f64>; 3] {
     let (u, v) = (basis(size[0], x[0]), basis(size[1], x[1]));
@@ -186,8 +187,8 @@ impl Cell {
         // Derivatives by the cell's own parameters; the net beyond is wider by its margins.
         let stretch = 1.0 / (1.0 + 2.0 * MARGIN);
         let degrees = [(size[0] - 1) as f64, (size[1] - 1) as f64];
-        // Also pays for what the points of very small patches, deep in a subdivision surface, are off
-        // by.
+        // Also covers the errors of the points of very small patches, deep in a subdivision
+        // surface.
         let rounding =
             (16.0 + far_err) * U * wide_reach.max(if rational { weights[0] } else { 0.0 }).max(SMALL);
         let bound = |along: [usize; 2]| {
@@ -255,7 +256,7 @@ impl Cell {
         out
     }
 
-    /// By how much slopes change in the cell, as a part of themselves, along each parameter.
+    /// The relative change of slopes in the cell, along each parameter.
     fn bend(&self) -> [f64; 2] {
         let vector = |p: &Homogeneous<f64>| Vec3::new(p[0], p[1], p[2]);
         let (a, b) = (vector(&self.middle[1]), vector(&self.middle[2]));

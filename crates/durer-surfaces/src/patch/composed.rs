@@ -83,8 +83,8 @@ fn of_parts(parts: &[Parts], turned: &[bool]) -> Nets {
 /// What [`shells`] makes; `None` if all points are the same.
 type Made = Result<Option<Moved>, SewnError>;
 
-/// The surface with its patches replaced by what these steps make of them; `None` if that is not
-/// a patch of a degree that there is.
+/// The surface with its patches mapped by these steps; `None` if the results are not patches of a
+/// supported degree.
 pub(crate) fn shells(source: Source<'_>, steps: &[DeformStep]) -> Option<Made> {
     if let Source::Sewn(it) = source {
         let mut parts = parts(&it.data().surfaces);

@@ -1,5 +1,5 @@
-//! A ray and the faces of a shell in double-double: for places where f64 does not tell a crossing from
-//! a miss.
+//! A ray and the faces of a shell in double-double, for places where f64 cannot decide between
+//! crossing and miss.
 
 use super::cell::Cell;
 use super::net::{FaceNet, Homogeneous, half, relative};
@@ -7,7 +7,7 @@ use crate::CentredRay;
 use core::cell::OnceCell;
 use durer_math::{Dd, EFloat};
 
-/// A ray, computed in double-double when it is first asked for.
+/// A ray, computed in double-double at first use.
 pub(super) struct Exact<'a> {
     at: &'a CentredRay<'a>,
     faces: &'a [FaceNet],

@@ -6,9 +6,9 @@
 //!   F = (X - k_x Z,  Y - k_y Z),   (X, Y, Z) = w (S(u, v) - o),   k_x = d_x / d_z,  |d_z| the largest
 //! ```
 //!
-//! `X`, `Y`, `Z` are polynomials even where `S` is rational. What the ray is not exactly known by,
-//! and every rounding, is charged to `F` (see [`View::new`]), so that a cell is left out only if no
-//! ray within these errors meets it, and neighbours need not agree on any rounding.
+//! `X`, `Y`, `Z` are polynomials even where `S` is rational. The errors of `F` include those of the
+//! ray and every rounding (see [`View::new`]). So a cell is left out only if no ray within these
+//! errors meets it, and neighbours need not agree on any rounding.
 
 use super::cell::{Cell, EDGE, MARGIN};
 use super::exact::Exact;
@@ -20,7 +20,7 @@ use durer_math::U;
 use durer_math::eft::two_diff;
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 
-/// Where a cell's own limits hold.
+/// The parameters on which a cell's own limits hold.
 const MARGINS: [[f64; 2]; 2] = [[-MARGIN, 1.0 + MARGIN]; 2];
 
 /// A ray whose largest component of direction is the third.
@@ -49,7 +49,7 @@ impl Line {
         };
         let [o, o_err, d, d_err] = [at.o, at.o_err, at.d, at.d_err].map(|v| axes.map(|axis| v[axis]));
         let slope = [d[0] / d[2], d[1] / d[2]];
-        // |d_z| is 1 at least; what is known worse than that is not known at all.
+        // |d_z| is at least 1. If its error is larger, the quotients get infinite errors.
         let known = (d[2].abs() - d_err[2]).max(0.0);
         let mut slope_err = [0.0; 2];
         for i in 0..2 {
@@ -59,8 +59,8 @@ impl Line {
         Self { axes, o, o_err, d_z: d[2], d_z_err: d_err[2], slope, slope_err }
     }
 
-    /// The parameter at which the third coordinate, counted from the origin, is `z`, which is off by
-    /// `z_err` at most; and how far off that may be.
+    /// The parameter at which the third coordinate relative to the origin is `z`, and a bound on
+    /// its error; `z` is known within `z_err`.
     #[inline(always)]
     pub(crate) fn along(&self, z: f64, z_err: f64) -> (f64, f64) {
         let s = z / self.d_z;
@@ -70,15 +70,16 @@ impl Line {
     }
 }
 
-/// Points that are close together, as a line sees them: counted from one of them.
+/// The values of `F` over points that are close together, relative to one of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
-    /// The least and the greatest of each of both functions, and bounds on their errors.
+    /// The least and the greatest value of each function, and bounds on their errors.
     pub(super) f: [[f64; 2]; 2],
     pub(super) e: [f64; 2],
     /// The line's parameters between which the points are, errors included.
     pub(super) s: [f64; 2],
-    /// The same for points near their common plane, if they have one that the line is not along.
+    /// The same range from the planes that enclose all points; `None` if `turn` is 0 or the line is
+    /// nearly parallel to these planes.
     pub(super) plane: Option<[f64; 2]>,
     /// The sign of `S_u x S_v . d` at the corners of the face, 0 if it differs.
     pub(super) turn: i8,
@@ -92,15 +93,15 @@ impl Sight {
     }
 }
 
-/// The least and the greatest of both functions over points, bounds on their errors, and what they
-/// are computed from.
+/// The least and the greatest value of both functions over some points, bounds on their errors, and
+/// the numbers they are computed from.
 struct Spread {
     f: [[f64; 2]; 2],
     e: [f64; 2],
-    /// The third coordinates, less the origin's, and a bound on their errors.
+    /// The range of the third coordinates relative to the origin, and a bound on their errors.
     z: [f64; 2],
     z_err: f64,
-    /// The origin, counted from the base, and a bound on its error.
+    /// The origin relative to the base, and a bound on its error.
     o: [f64; 3],
     o_err: [f64; 3],
     /// The error of a point.
@@ -139,16 +140,16 @@ impl Line {
         Spread { f, e, z: zs, z_err: e_net + o_err[2] + U * z_size, o, o_err, e_net }
     }
 
-    /// Whether the line provably misses the convex hull of points relative to `base`, each rounded and
-    /// off by `e_points` at most besides.
+    /// Whether the line provably misses the convex hull of points relative to `base`. Each point is
+    /// rounded, and has an error of at most `e_points` before that.
     #[inline(always)]
     pub(super) fn misses(&self, base: [f64; 3], points: &[[f64; 3]], e_points: f64) -> bool {
         let Spread { f, e, .. } = self.spread(base, points, e_points);
         (0..2).any(|i| f[i][0] > e[i] || f[i][1] < -e[i])
     }
 
-    /// Points relative to `base`, each rounded and off by `e_points` at most besides; the first three
-    /// or four are the corners of a face.
+    /// The values over points relative to `base`, with errors as in [`Line::misses`]; the first
+    /// `corners` points (three or four) are the corners of a face.
     #[inline(always)]
     pub(super) fn sight(&self, base: [f64; 3], points: &[[f64; 3]], corners: usize, e_points: f64) -> Sight {
         let Spread { f, e, z: zs, z_err, o, o_err, e_net } = self.spread(base, points, e_points);
@@ -179,8 +180,8 @@ impl Line {
         Sight { f, e, s, plane, turn }
     }
 
-    /// Where the line passes between the planes along both diagonals of the corners, or along three of
-    /// them, that hold all points between them.
+    /// The line's parameters between two parallel planes that enclose all points. The planes are
+    /// parallel to both diagonals of four corners, or to the plane of three.
     #[inline(always)]
     fn plane(
         &self,
@@ -227,26 +228,26 @@ impl Line {
     }
 }
 
-/// A line as a cell sees it.
+/// A line relative to a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {
     pub(super) cell: &'a Cell,
     pub(super) rational: bool,
     line: &'a Line,
-    /// The origin, counted from the cell's base, and bounds on its error.
+    /// The origin relative to the cell's base, and bounds on its error.
     o: [f64; 3],
     o_err: [f64; 3],
     /// In the cell's parameters from 0 to 1.
     pub(super) limits: Limits,
-    /// The part of the errors that is not of evaluation: bounds on the errors of control points.
+    /// Bounds on the errors of control points: the errors without those of an evaluation.
     pub(super) e_control: [f64; 2],
 }
 
-/// A crossing of a line and a cell, or what may be one.
+/// A proven or possible crossing of a line and a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) face: u32,
-    /// The parameters in the patch, and how far off they may be.
+    /// The parameters in the patch, and bounds on their errors.
     pub(super) uv: [f64; 2],
     pub(super) radius: [f64; 2],
     /// No other crossing is within this distance; 0 if nothing is proven.
@@ -255,18 +256,18 @@ pub(super) struct Found {
     pub(super) s_err: f64,
     /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
     pub(super) sign: i8,
-    /// Where nothing is proven: that sign at some points round about, 0 if they differ.
+    /// If nothing is proven: that sign at some points nearby, 0 if they differ.
     pub(super) turn: i8,
     /// Whether it may be on a trim.
     pub(super) on_trim: bool,
-    /// Whether the line surely meets the surface of the patch there, perhaps beyond an edge or a trim,
-    /// in the direction of `turn`.
+    /// Whether the line certainly meets the surface of the patch there, perhaps beyond an edge or a
+    /// trim, in the direction of `turn`.
     pub(super) is_zero: bool,
 }
 
 impl Found {
-    /// One crossing of two patches, found on both: with the place on the one that it is surely within. If
-    /// it may be beyond the edge of each, the bracket holds both places.
+    /// Unites one crossing that was found on two patches. The result is the one that is certainly
+    /// within its patch; if both may be beyond an edge, its bracket holds both.
     pub(super) fn united(&self, other: &Self, is_on_edge: impl Fn(&Self) -> bool) -> Self {
         match (is_on_edge(self), is_on_edge(other)) {
             (false, true) => *self,
@@ -276,7 +277,7 @@ impl Found {
         }
     }
 
-    /// A box that holds both, in which nothing is proven.
+    /// An unproven crossing whose box holds both boxes.
     pub(super) fn joined(&self, other: &Self) -> Self {
         let (a, b, mut out, wider) = (self, other, *self, 1.0 + 4.0 * U);
         // Parameters of different patches do not mix.
@@ -294,7 +295,7 @@ impl Found {
         out
     }
 
-    /// Shortens the bracket to what it has in common with another one; `false` if that is nothing.
+    /// Intersects the bracket with another one; `false` if they are disjoint.
     pub(super) fn is_shortened(&mut self, [low, high]: [f64; 2]) -> bool {
         let (low, high) = (low.max(self.s - self.s_err), high.min(self.s + self.s_err));
         if low > high {
@@ -313,11 +314,12 @@ impl Found {
 }
 
 impl<'a> View<'a> {
-    /// The bounds of errors: with `X = x - o_x W`, `Z = z - o_z W` and `f = X - k Z`,
+    /// Computes the error bounds. With `X = x - o_x W`, `Z = z - o_z W` and `f = X - k Z`,
     ///
-    /// * control points are off by `e_net`, the origin by `o_err` and the rounding of `o - base`;
-    /// * `k` is off by `slope_err`, which counts times `|Z|`;
-    /// * `X`, `Z` and `f` round once each, to `U` of their size, and an evaluation is off by
+    /// * control points have the error `e_net`, the origin has `o_err` and the rounding of
+    ///   `o - base`;
+    /// * `k` has the error `slope_err`, which is multiplied by `|Z|`;
+    /// * `X`, `Z` and `f` round once each, by `U` of their size, and an evaluation has the error
     ///   `e_point`.
     #[inline(always)]
     pub(super) fn new(line: &'a Line, cell: &'a Cell, rational: bool) -> Self {
@@ -327,7 +329,7 @@ impl<'a> View<'a> {
             (o[k], o_err[k]) = (near, (line.o_err[k] + lost.abs()) * ROUNDED);
         }
         let [heaviest, _] = cell.weights;
-        // A weight is off by this part of what a coordinate is.
+        // The ratio of a weight's error to a coordinate's.
         let weight_err = if rational { heaviest / cell.reach.max(f64::MIN_POSITIVE) } else { 0.0 };
         let mut view = Self {
             cell,
@@ -364,14 +366,14 @@ impl<'a> View<'a> {
         view
     }
 
-    /// How far a control point's functions and third coordinate, divided by its weight, are off: each of
-    /// its numbers is rounded, and off by what the cell's are.
+    /// Bounds on the errors of a control point's functions and third coordinate, divided by its
+    /// weight. Each of its numbers is rounded, and has the cell's errors.
     pub(super) fn control_errors(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
         let (cell, (f, z)) = (self.cell, self.sheared(p));
         let weight_err =
             if self.rational { cell.weights[0] / cell.reach.max(f64::MIN_POSITIVE) } else { 0.0 };
         let rounded = U * p[0].abs().max(p[1].abs()).max(p[2].abs());
-        // The weight that a number is divided by is off, too.
+        // The weight in the denominator has an error, too.
         let quotient = |x: f64| {
             if self.rational { (weight_err * cell.e_net / p[3] + 3.0 * U) * x.abs() / p[3] } else { 0.0 }
         };
@@ -383,14 +385,14 @@ impl<'a> View<'a> {
         (e, (z_err + self.o_err[2] + quotient(z)) * ROUNDED)
     }
 
-    /// Parameters of the line between which the third coordinate, counted from the origin, is in a
-    /// range whose ends are off by `z_err` at most.
+    /// The line's parameters between which the third coordinate relative to the origin is in a
+    /// range whose ends are known within `z_err`.
     pub(super) fn along(&self, z: [f64; 2], z_err: f64) -> [f64; 2] {
         let [a, b] = z.map(|z| self.line.along(z, z_err));
         [(a.0 - a.1).min(b.0 - b.1), (a.0 + a.1).max(b.0 + b.1)]
     }
 
-    /// A homogeneous point (or a derivative of it), sheared; and its third coordinate.
+    /// The functions at a homogeneous point (or of a derivative), and its third coordinate.
     #[inline(always)]
     pub(super) fn sheared(&self, p: &Homogeneous<f64>) -> ([f64; 2], f64) {
         let axes = &self.line.axes;
@@ -406,7 +408,7 @@ impl<'a> View<'a> {
         Local { f, j: [[a[0], b[0]], [a[1], b[1]]] }
     }
 
-    /// The crossings of the line and the cell, also those beyond its edges within `room`.
+    /// Appends the crossings of the line and the cell, also those within `room` beyond its edges.
     #[inline(always)]
     pub(super) fn meet(&self, exact: &Exact<'_>, out: &mut Vec<Found>, room: f64) {
         let middle = self.local(&self.cell.middle);
@@ -443,7 +445,7 @@ impl<'a> View<'a> {
         zero
     }
 
-    /// A parameter of the cell as one of the patch.
+    /// Converts a parameter of the cell to one of the patch.
     #[inline(always)]
     fn in_patch(&self, k: usize, x: f64) -> f64 {
         x.mul_add(self.cell.width[k], self.cell.from[k])
@@ -503,7 +505,7 @@ impl<'a> View<'a> {
         if signs.iter().all(|s| *s == signs[0]) { signs[0] } else { 0 }
     }
 
-    /// A box in the cell in which crossings cannot be told from misses.
+    /// An unproven crossing: a box in the cell in which rounding hides whether there is one.
     #[inline(always)]
     pub(super) fn unresolved(&self, from: [f64; 2], width: [f64; 2]) -> Found {
         let (cell, z_axis) = (self.cell, self.line.axes[2]);

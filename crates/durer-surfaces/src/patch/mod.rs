@@ -116,7 +116,7 @@ pub enum PatchError {
     /// The weights differ by more than can be computed with.
     #[error("patch: the largest weight is {0} times the least, which is too much")]
     Weights(f64),
-    /// A number is beyond what can be computed with.
+    /// A number is too large.
     #[error("patch: it is too large, up to {0:?}")]
     TooLarge(f64),
     /// All points are the same.
@@ -214,7 +214,7 @@ pub(crate) fn map_uv(corners: &[[f64; 2]; 4], point: &mut SurfacePoint, need: Ne
     point.change_parameters(jacobian, need);
 }
 
-/// Whether a net is one of a patch.
+/// Checks that a net is valid for a patch.
 fn check(size: [usize; 2], points: &[[f64; 4]]) -> Result<(), PatchError> {
     if size.iter().any(|n| !(2..=cell::MOST).contains(n)) {
         return Err(PatchError::Size(size));
@@ -225,7 +225,8 @@ fn check(size: [usize; 2], points: &[[f64; 4]]) -> Result<(), PatchError> {
     check_points(points, WEIGHTS)
 }
 
-/// Whether all points can be computed with, and weights differ by no more than a factor.
+/// Checks that all points are in the solver's range, and that the ratio of weights is within a
+/// factor.
 fn check_points(points: &[[f64; 4]], factor: f64) -> Result<(), PatchError> {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (i, &[x, y, z, weight]) in points.iter().enumerate() {

@@ -178,8 +178,8 @@ pub(super) fn relative(points: &[Homogeneous<Dd>], base: [f64; 3]) -> Vec<Homoge
     points.iter().map(about).collect()
 }
 
-/// The net of the same patch over a box that is wider by `margin` on all sides, and how many roundings
-/// of the largest point it is off by at most.
+/// The net of the patch over a box that is wider by `margin` on all sides, and a bound on its
+/// error, in roundings of the largest point.
 ///
 /// Each of the `4 (n - 1)` levels rounds three times, and enlarges points and their errors by less than
 /// `(1 + 2 margin)`.

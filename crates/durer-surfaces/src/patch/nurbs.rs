@@ -6,11 +6,11 @@
 //!
 //! `N` are the B-splines over the knots. Knots are inserted until each is there as often as the
 //! degree says (W. Boehm, "Inserting new knots into B-spline curves", *Computer-Aided Design* 12
-//! (1980) 199-201); then the net is that of Bezier patches, one for each pair of spans. That is done
-//! in double-double, so it is off by far less than anything else, and patches that join have the same
+//! (1980) 199-201); then the net is that of Bezier patches, one for each pair of spans. That is
+//! done in double-double, so its error is far below all others, and patches that join have the same
 //! control points along their edge. W. Stuerzlinger, "Ray-tracing triangular trimmed free-form
-//! surfaces", *IEEE Transactions on Visualization and Computer Graphics* 4 (1998) 202-214; L. Piegl,
-//! W. Tiller, *The NURBS Book*, 2nd ed. 1997.
+//! surfaces", *IEEE Transactions on Visualization and Computer Graphics* 4 (1998) 202-214; L.
+//! Piegl, W. Tiller, *The NURBS Book*, 2nd ed. 1997.
 
 use super::net::{FaceNet, Homogeneous, Net, between};
 use super::shell::{FaceTrim, Shell};
@@ -34,19 +34,19 @@ pub struct NurbsData {
     /// The points row by row, and their weights: `[x, y, z, w]`, with coordinates that are not
     /// multiplied by the weight. `u` runs along a row.
     pub points: Vec<[f64; 4]>,
-    /// The knots: as many as points along that parameter, and the degree and one more; of a periodic
-    /// one as many as points and one more. Empty: uniform, with ends at the outer points.
+    /// The knots along each parameter: the number of points plus the degree plus one; if periodic,
+    /// the number of points plus one. Empty: uniform, and the surface ends at the outer points.
     pub knots: [Vec<f64>; 2],
-    /// Whether points and knots go round.
+    /// Whether points and knots are periodic.
     pub periodic: [bool; 2],
-    /// Loops that do not cross: what lies to the left of them stays. Empty: all of the surface. A loop
-    /// within another runs the other way round.
+    /// Loops that do not cross; the part to the left of them is kept. Empty: all of the surface. A
+    /// loop within another runs the other way round.
     pub trims: Vec<TrimLoop>,
 }
 
 impl NurbsData {
-    /// Whether these numbers make a surface, before it is built. That all points are the same is not
-    /// looked for.
+    /// Checks whether these numbers make a surface, before it is built. Does not check whether all
+    /// points are the same.
     pub fn check(&self) -> Result<(), NurbsError> {
         let full = [full_knots(self, 0)?, full_knots(self, 1)?];
         check(self)?;
@@ -152,7 +152,7 @@ pub enum NurbsError {
         /// Its weight.
         weight: f64,
     },
-    /// The weights differ by more than can be computed with.
+    /// The ratio of two weights is too large.
     #[error("nurbs: the largest weight is {0} times the least, which is too much")]
     Weights(f64),
     /// A trim cannot be one.
@@ -188,14 +188,14 @@ pub enum NurbsError {
 pub struct Nurbs {
     data: Arc<NurbsData>,
     shell: Arc<Shell>,
-    /// The parameters of each patch, as parts of the whole: least ones and widths.
+    /// The ranges of parameters of each patch, as fractions of the whole: least ones and widths.
     spans: Arc<[[[f64; 2]; 2]]>,
 }
 
 const ALONG: [char; 2] = ['u', 'v'];
 
-/// The knots along a parameter, with those that go round or are not given, and how many control
-/// points they need.
+/// The knots along a parameter, periodic and default ones included, and how many control points
+/// they need.
 fn full_knots(data: &NurbsData, k: usize) -> Result<(Vec<f64>, usize), NurbsError> {
     let (along, degree, len) = (ALONG[k], data.degree[k], data.size[k]);
     if !(1..=MOST_DEGREE).contains(&degree) {
@@ -242,7 +242,7 @@ fn full_knots(data: &NurbsData, k: usize) -> Result<(Vec<f64>, usize), NurbsErro
     }
     let round = given[len] - given[0];
     let at = |i: usize| {
-        // Knot `i - degree`, counted on by whole rounds.
+        // Knot `i - degree`, by whole periods and a rest.
         let (turns, rest) = ((i + 8 * len - degree) / len, (i + 8 * len - degree) % len);
         given[rest] + (turns as f64 - 8.0) * round
     };
@@ -338,7 +338,7 @@ impl Parts {
         [0, 1].map(|k: usize| self.ends[k].len() - 1)
     }
 
-    /// The least parameters of a patch and how far they go on, as the knots count.
+    /// The least parameters of a patch and their widths, in the units of the knots.
     pub(super) fn span(&self, face: usize) -> [[f64; 2]; 2] {
         let at = [face % self.grid()[0], face / self.grid()[0]];
         let ends = [0, 1].map(|k: usize| [self.ends[k][at[k]], self.ends[k][at[k] + 1]]);
@@ -351,7 +351,7 @@ impl Parts {
         self.trims.clone().map(|trims| FaceTrim { trims, from, width })
     }
 
-    /// The same as parts of the whole.
+    /// The least parameters of a patch and their widths, as fractions of the whole.
     pub(super) fn part(&self, face: usize) -> [[f64; 2]; 2] {
         let [from, width] = self.span(face);
         let whole = [0, 1].map(|k: usize| [self.ends[k][0], self.ends[k][self.ends[k].len() - 1]]);
@@ -374,7 +374,7 @@ impl Nurbs {
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans })
     }
 
-    /// Puts the parameters of the whole surface, from 0 to 1, in the place of those of a patch.
+    /// Replaces the parameters of a patch by those of the whole surface, from 0 to 1.
     pub(crate) fn spread_uv(&self, face: u32, point: &mut SurfacePoint) {
         if let Some([from, width]) = self.spans.get(face as usize) {
             point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
@@ -393,7 +393,7 @@ impl Nurbs {
     }
 }
 
-/// Whether all points and weights can be computed with.
+/// Checks that all points and weights are in the range in which the solver works.
 fn check(data: &NurbsData) -> Result<(), NurbsError> {
     let (size, len) = (data.size, data.points.len());
     if size[0].checked_mul(size[1]) != Some(len) {

@@ -13,9 +13,11 @@ const TINY: f64 = durer_math::scale::pow2(-500);
 /// The least distance at which rays start from the surface, in units: far enough for f64 to decide
 /// on which side of a crossing's bracket the start is.
 const CLEAR: f64 = 256.0 * U;
-/// Slopes are taken to span no plane if the area between them is this part of their largest.
+/// Slopes span no plane if the area between them is at most this, relative to the product of their
+/// magnitudes.
 const FLAT: f64 = durer_math::scale::pow2(-36);
-/// How far from a place without a tangent plane another is looked for, in parameters.
+/// The distance, in parameters, from a point without a tangent plane at which one is evaluated
+/// instead.
 const ASIDE: f64 = durer_math::scale::pow2(-10);
 
 /// A point of a patch with its derivatives.
@@ -36,7 +38,7 @@ impl Jet {
         self.pu.cross(self.pv)
     }
 
-    /// How that changes along a direction of the parameters.
+    /// The derivative of `S_u x S_v` along a direction of the parameters.
     #[inline(always)]
     fn area_along(&self, [du, dv]: [f64; 2]) -> Vec3 {
         (self.puu.cross(self.pv) + self.pu.cross(self.puv)) * du
@@ -137,13 +139,14 @@ fn powers(n: usize, t: f64) -> [[f64; MOST]; 3] {
 }
 
 impl Jet {
-    /// A point with slopes, and nothing known of its curvature.
+    /// A point with slopes, without second derivatives.
     pub(super) fn flat(p: Vec3, pu: Vec3, pv: Vec3) -> Self {
         let unknown = Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
         Self { p, pu, pv, puu: unknown, puv: unknown, pvv: unknown }
     }
 
-    /// The same, of a surface that `base` is added to, by parameters that are `width` as wide.
+    /// The jet of the surface moved by `base`, for parameters that are `width` times the present
+    /// ones.
     pub(super) fn moved(self, base: Vec3, width: f64) -> Self {
         let (by, by2) = (1.0 / width, 1.0 / (width * width));
         Self {
@@ -157,9 +160,9 @@ impl Jet {
     }
 }
 
-/// The point of a root where a surface is `jet`, in units of `2^scale` about a centre: with its
-/// bounds, its normal, and its slopes along the parameters. The normal is that of a jet there or
-/// close by; `eta` is what the evaluation is off by.
+/// The point of a root, with its bounds, normal and slopes along the parameters. `jet` is the
+/// surface there, in units of `2^scale` about a centre, with the error `eta`; the normal is that of
+/// a jet there or close by.
 #[inline(always)]
 pub(super) fn located(
     (centre, scale): (Point3, i32),
@@ -233,8 +236,8 @@ impl Shell {
 }
 
 impl SurfacePoint {
-    /// Puts slopes along other coordinates in the place of those along the parameters, with the
-    /// slopes of these coordinates along the parameters.
+    /// Replaces slopes along the parameters by those along other coordinates, whose slopes along
+    /// the parameters are given.
     pub(crate) fn change_parameters(&mut self, [[p, q], [r, s]]: [[f64; 2]; 2], need: Need) {
         let det = p * s - q * r;
         if need.contains(Need::DERIVATIVES) && det != 0.0 {

@@ -1,12 +1,13 @@
 //! Gaps between the faces of a closed shell.
 //!
-//! Trimmed faces that share an edge do not agree on it: one ends a little before the other begins, or
-//! both overlap. Along any line entries into a solid and exits from it alternate. Where they do not,
-//! the fewest changes are made that let them: a crossing with the continuation of a face within the
-//! seal beyond its edge is added, or one of a face within the seal of its edge is left out. Distances
-//! are measured in the tangent plane. A line that enters through one gap and leaves through another is
-//! inside between them if they are farther apart than four seals, which no two continuations beside one
-//! edge are. What is added is reported as uncertain. If no such changes help, none is made.
+//! Trimmed faces that share an edge do not agree on it: one ends a little before the other begins,
+//! or both overlap. Along any line entries into a solid and exits from it alternate. Where they do
+//! not, the fewest changes are made so that they do: a crossing with the continuation of a face,
+//! within the seal beyond its edge, is added, or a crossing within the seal of an edge is removed.
+//! Distances are measured in the tangent plane. A line that enters through one gap and leaves
+//! through another is inside between them if they are farther apart than four seals; two
+//! continuations at one edge never are. Added crossings are reported as uncertain. If no such
+//! changes help, none is made.
 
 use super::cell::Cell;
 use super::line::Found;
@@ -14,19 +15,19 @@ use super::shell::{Lists, Shell};
 use crate::CentredRay;
 use core::ops::ControlFlow;
 
-/// What it costs to add a crossing, and to leave one out: that is the last resort, lest a line through
-/// an overlap and a gap be lost.
+/// The costs of adding a crossing and of removing one. Removal is the last resort, so that a line
+/// through an overlap and a gap is not lost.
 const ADD: u32 = 1;
 const LEAVE: u32 = 4;
-/// More than all changes of a line together.
+/// A cost above that of all changes of a line together.
 const NEVER: u32 = 1 << 20;
 
 /// The choices for a crossing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
-    /// It is one.
+    /// It is a certain crossing.
     Kept,
-    /// It may be left out, since it is near an edge.
+    /// It may be removed, because it is near an edge.
     Near,
     /// It may be added.
     Off,
@@ -47,8 +48,8 @@ fn alternate(found: &[Found]) -> bool {
 
 /// The crossings that alternate after the fewest changes, ascending; `None` if none do.
 fn repaired(all: &[(Found, Role)]) -> Option<Vec<Found>> {
-    // The least cost of being outside and inside, and for each crossing whether it was used on the
-    // way there.
+    // The least costs of being outside and inside, and for each crossing whether it was used to get
+    // there.
     let mut cost = [0, NEVER];
     let mut used = Vec::with_capacity(all.len());
     for (f, role) in all {
@@ -89,8 +90,8 @@ fn repaired(all: &[(Found, Role)]) -> Option<Vec<Found>> {
     Some(out)
 }
 
-/// Adds pairs of crossings that are left out although the line is on the other side between them for
-/// longer than `far`: it passes through two gaps.
+/// Adds pairs of missing crossings where the line is on the other side between them for longer than
+/// `far`: it passes through two gaps.
 fn with_pairs(used: Vec<Found>, off: &[Found], far: f64) -> Vec<Found> {
     let mut out: Vec<Found> = Vec::with_capacity(used.len());
     let mut state = -1;
@@ -122,8 +123,8 @@ fn added(f: Found) -> Found {
 }
 
 impl Shell {
-    /// Takes away crossings, from the first of these on, that are not on the face; those within the
-    /// seal of its edge go to `off`.
+    /// Removes crossings, from index `first` on, that are not on the face; those within the seal of
+    /// its edge go to `off`.
     pub(super) fn sort_out(&self, cell: &Cell, found: &mut Vec<Found>, first: usize, off: &mut Vec<Found>) {
         let Some(trim) = &self.faces[cell.face as usize].trim else { return };
         let mut kept = first;
@@ -180,7 +181,7 @@ impl Shell {
             *found = used;
         }
         if off.len() > 1 {
-            // Beside one edge a line is for four times the seal at most.
+            // A line is near one edge for at most four times the seal.
             let far = 4.0 * self.seal / at.d.length();
             *found = with_pairs(core::mem::take(found), off, far);
         }

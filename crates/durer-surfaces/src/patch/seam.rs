@@ -1,8 +1,8 @@
-//! Edges of faces, and which two are the same.
+//! Edges of faces, and pairs of equal edges.
 //!
 //! Two sides of faces are one edge if their control points are the same; and, if faces may be
-//! [sealed](super::sewn::SewnData::seal), if points along one are near the other. The faces of a solid
-//! are turned so that both go along each edge in different directions.
+//! [sealed](super::sewn::SewnData::seal), if points along one are near the other. The faces of a
+//! solid are oriented so that the two at each edge run along it in opposite directions.
 
 use super::net::{FaceNet, Homogeneous};
 use super::nurbs::Parts;
@@ -11,18 +11,18 @@ use super::shell::Shell;
 use super::trim::curve::Piece;
 use durer_math::{Dd, Point3, Vec3};
 
-/// Points along an edge that are looked at.
+/// The number of sample points along an edge.
 const PARTS: usize = 16;
-/// Control points that differ by less than this, in units, are the same: by less than what bounds on
-/// errors of all cells have room for.
+/// Control points that differ by less than this, in units, are the same. The error bounds of all
+/// cells cover such a difference.
 const SAME: f64 = durer_math::scale::pow2(-92);
 
-/// A piece of the edge of a surface. What stays of the surface is to its left.
+/// A piece of the edge of a surface. The kept part of the surface is to its left.
 pub(super) struct Edge {
-    /// The surface, and what it is called in it.
+    /// The surface, and the edge's name within it.
     surface: usize,
     name: String,
-    /// Its number in its loop, and how many there are.
+    /// Its number in its loop, and the number of edges in the loop.
     number: [usize; 2],
     curve: Piece,
     /// The control points, if it is a whole side of a patch.
@@ -38,7 +38,7 @@ enum Match {
     Against,
 }
 
-/// Surfaces whose edges are looked at.
+/// The surfaces whose edges are matched.
 pub(super) struct Surfaces<'a> {
     pub(super) parts: &'a [Parts],
     /// The number of the first patch of each surface.
@@ -48,7 +48,7 @@ pub(super) struct Surfaces<'a> {
 }
 
 impl Surfaces<'_> {
-    /// A point at parameters as the knots of a surface count them.
+    /// The point of a surface at parameters in the units of its knots.
     fn point(&self, surface: usize, uv: [f64; 2]) -> Vec3 {
         let parts = &self.parts[surface];
         let at = [0, 1].map(|k: usize| {
@@ -150,7 +150,7 @@ impl Surfaces<'_> {
         p.iter().zip(q).all(|(p, q)| near(p, q)).then_some(Match::Along)
     }
 
-    /// The edge that is near all of an edge, and in which direction it goes.
+    /// The edge that is near all of edge `i`, and its direction relative to it.
     fn near(&self, edges: &[Edge], i: usize, seal: f64) -> Option<(usize, Match)> {
         let edge = &edges[i];
         let mut middle = None;
@@ -197,7 +197,7 @@ impl Surfaces<'_> {
         SewnError::Edge { surface: edge.surface + 1, edge: edge.name.clone(), from, to }
     }
 
-    /// Of each surface the group that it is joined with, and whether it is to be turned.
+    /// For each surface, its connected group and whether its orientation must be reversed.
     pub(super) fn joined(&self, seal: f64) -> Result<Vec<(usize, bool)>, SewnError> {
         let edges = self.edges();
         let mut links = Vec::new();

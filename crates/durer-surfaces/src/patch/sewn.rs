@@ -1,10 +1,10 @@
 //! NURBS surfaces that share edges: one object, and a solid if every edge has a partner.
 //!
 //! Edges with the same control points are the same curve to the last bit, so no ray passes between
-//! them, and a crossing on one is reported once. Trimmed edges are only near each other; `seal` says
-//! how near (`seal.rs`). A point is inside if a line from it crosses the faces an odd number of times.
-//! W. Martin, E. Cohen, R. Fish, P. Shirley, "Practical ray tracing of trimmed NURBS surfaces",
-//! *Journal of Graphics Tools* 5 (2000) 27-52.
+//! them, and a crossing on one is reported once. Trimmed edges are only near each other, within
+//! `seal` (`seal.rs`). A point is inside if a line from it crosses the faces an odd number of
+//! times. W. Martin, E. Cohen, R. Fish, P. Shirley, "Practical ray tracing of trimmed NURBS
+//! surfaces", *Journal of Graphics Tools* 5 (2000) 27-52.
 
 use super::nurbs::Parts;
 use super::seam::Surfaces;
@@ -21,15 +21,15 @@ use std::sync::Arc;
 pub struct SewnData {
     /// The surfaces.
     pub surfaces: Vec<NurbsData>,
-    /// How far edges that belong together may be apart: gaps of a closed one are closed. 0: their
-    /// control points are the same.
+    /// The largest distance between edges that belong together; gaps of a closed surface are
+    /// closed. 0: their control points must be equal.
     pub seal: f64,
     /// Whether it is a solid: then every edge must have a partner.
     pub closed: bool,
 }
 
 impl SewnData {
-    /// Whether these surfaces make an object, by making it.
+    /// Checks whether these surfaces form an object, by building it.
     pub fn check(&self) -> Result<(), SewnError> {
         Sewn::new(self.clone()).map(drop)
     }
@@ -92,7 +92,7 @@ pub enum SewnError {
         /// The other, from 1.
         b: usize,
     },
-    /// No ray tells which side of a closed one is inside.
+    /// No ray decides which side of a closed one is inside.
     #[error("sewn: it has no inside: no line crosses it an even number of times")]
     Inside,
 }
@@ -121,7 +121,7 @@ pub enum SewnError {
 pub struct Sewn {
     data: Arc<SewnData>,
     shell: Arc<Shell>,
-    /// The parameters of each patch, as parts of its surface: least ones and widths.
+    /// The ranges of parameters of each patch, as fractions of its surface: least ones and widths.
     spans: Arc<[[[f64; 2]; 2]]>,
 }
 
@@ -173,7 +173,7 @@ impl Sewn {
         Ok(Self { data: Arc::new(data), shell: Arc::new(shell), spans: spans.into() })
     }
 
-    /// Puts the parameters of the whole surface, from 0 to 1, in the place of those of a patch.
+    /// Replaces the parameters of a patch by those of the whole surface, from 0 to 1.
     pub(crate) fn spread_uv(&self, face: u32, point: &mut SurfacePoint) {
         if let Some([from, width]) = self.spans.get(face as usize) {
             point.uv = [0, 1].map(|k| f64::mul_add(point.uv[k], width[k], from[k]));
@@ -188,8 +188,8 @@ impl Sewn {
 }
 
 impl Shell {
-    /// Turns each group of faces so that normals point out of the solid: along a line that meets all
-    /// faces properly, entries and exits alternate.
+    /// Orients each group of faces so that normals point out of the solid: along a line without
+    /// touches or crossings on edges, entries and exits alternate.
     fn turn_outward(&mut self, group_of: &[usize]) -> Result<(), SewnError> {
         let mut groups: Vec<usize> = group_of.to_vec();
         groups.sort_unstable();
@@ -207,7 +207,7 @@ impl Shell {
         Ok(())
     }
 
-    /// Whether the normals of a group point into the solid; `None` if no line tells.
+    /// Whether the normals of a group point into the solid; `None` if no line decides.
     fn is_inward(&self, group_of: &[usize], group: usize) -> Option<bool> {
         let aims = self.kept_points().filter(|(face, _)| group_of[*face] == group);
         aims.take(64).find_map(|(face, aim)| {
@@ -231,7 +231,7 @@ fn is_proper(root: &Root) -> bool {
     root.kind == RootKind::Simple
 }
 
-/// Directions of lines that tell inside from outside: any will do that meet no edge.
+/// Directions of lines that decide between inside and outside: any that meets no edge is suitable.
 const DIRECTIONS: [[f64; 3]; 6] = [
     [0.283, 0.531, 0.798],
     [-0.719, 0.412, 0.559],
@@ -275,7 +275,7 @@ impl Patches for Sewn {
             self.shell.all_roots(&local, &mut all);
             let ahead: i32 = all.roots.iter().filter(|r| r.t > 0.0).map(|r| i32::from(r.sign)).sum();
             told = if ahead > 0 { Side::In } else { Side::Out };
-            // How far an error of the point moves a crossing along the line.
+            // The distance by which an error of the point moves a crossing along the line.
             let moves = |r: &Root| {
                 let n = self.shell.point(&local, r).ng.to_vec();
                 n.abs().dot(point.p_err) / n.dot(ray.direction).abs()

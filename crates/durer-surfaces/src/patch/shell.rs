@@ -18,18 +18,18 @@ use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 use durer_roots::two_unknowns::ROUNDED;
 use std::sync::Arc;
 
-/// Cells farther than this from the ray's range, in units, are not looked at: far more than any
-/// bracket of a proven crossing is wide.
+/// Cells farther than this from the ray's range, in units, are skipped. The bracket of a proven
+/// crossing is far narrower.
 pub(super) const ROOM: f64 = 1.0 / 1024.0;
 
-/// A patch as it is resolved: its control points in units, and the patch's own rounding of them.
+/// The data of a patch for resolving hits: its control points, rounded, in units.
 #[derive(Clone, Debug)]
 pub(crate) struct Face {
     pub(super) size: [usize; 2],
-    /// Over the square, also of a triangle.
+    /// The control points over the unit square, for a triangle too.
     pub(super) net: Box<[Homogeneous<f64>]>,
     pub(super) is_triangle: bool,
-    /// The least weight, and the largest number of the net; with weights twice that.
+    /// The least weight, and the largest number of the net, doubled if there are weights.
     pub(super) lightest: f64,
     pub(super) largest: f64,
     pub(super) trim: Option<FaceTrim>,
@@ -37,8 +37,8 @@ pub(crate) struct Face {
     pub(super) is_turned: bool,
 }
 
-/// The trims of a face, and the parameters that they count by: where the face's begin and how far they
-/// go on.
+/// The trims of a face, and its range of parameters in the trims' units: the least ones and the
+/// widths.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceTrim {
     pub(super) trims: Arc<Trims>,
@@ -47,13 +47,13 @@ pub(crate) struct FaceTrim {
 }
 
 impl FaceTrim {
-    /// Whether parameters of the face within a distance stay.
+    /// Whether parameters of the face within `radius` of `uv` are kept; `None` if only some may be.
     pub(crate) fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
         let (at, off) = self.as_knots(uv, radius);
         self.trims.keeps(at, off)
     }
 
-    /// Parameters and their errors, as the knots count.
+    /// Parameters and their errors, in the units of the knots.
     pub(super) fn as_knots(&self, uv: [f64; 2], radius: [f64; 2]) -> ([f64; 2], [f64; 2]) {
         let at = [0, 1].map(|k| f64::mul_add(self.width[k], uv[k], self.from[k]));
         let off = [0, 1].map(|k| {
@@ -70,7 +70,7 @@ pub(crate) struct Shell {
     pub(crate) bounds: Aabb,
     pub(crate) centre: Point3,
     pub(super) scale: i32,
-    /// The radius of a ball about the centre that holds everything.
+    /// The radius of a ball about the centre that holds all patches.
     pub(crate) reach: f64,
     pub(super) rational: bool,
     pub(super) faces: Box<[Face]>,
@@ -81,19 +81,19 @@ pub(crate) struct Shell {
     tree: BoxTree,
     /// Whether it bounds a solid, out of which all normals point.
     pub(super) is_closed: bool,
-    /// Gaps between faces up to this wide are closed, in units; 0: none are looked for.
+    /// Gaps between faces up to this width are closed, in units; 0 if gaps are not closed.
     pub(super) seal: f64,
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 pub(super) struct Lists {
     open: Open,
     pub(super) found: Vec<Found>,
-    /// Those that are passed on before the line has been searched to its end.
+    /// Crossings that are passed on before the search has reached the line's end.
     early: Vec<Found>,
     pub(super) ahead: Ahead,
-    /// Crossings off their face, within the seal of its edge.
+    /// Crossings outside their face, within the seal's width of its edge.
     pub(super) off: Vec<Found>,
 }
 
@@ -119,12 +119,12 @@ impl Face {
         Self { size: square.size, net, is_triangle, lightest, largest, trim, is_turned: false }
     }
 
-    /// A point in the middle of the parameters.
+    /// The middle of the parameters' domain.
     pub(super) fn middle(&self) -> [f64; 2] {
         [if self.is_triangle { 1.0 / 3.0 } else { 0.5 }; 2]
     }
 
-    /// Parameters moved into the patch.
+    /// The parameters of the patch nearest to `uv`.
     #[inline(always)]
     fn clamped(&self, uv: [f64; 2]) -> [f64; 2] {
         clamped(self.is_triangle, uv)
@@ -137,7 +137,7 @@ impl Face {
     }
 }
 
-/// Parameters moved into a triangle or a square.
+/// Moves parameters into the domain, a triangle or a square.
 #[inline(always)]
 pub(super) fn clamped(is_triangle: bool, uv: [f64; 2]) -> [f64; 2] {
     let [u, v] = uv.map(|x| x.clamp(0.0, 1.0));
@@ -162,8 +162,8 @@ impl Shell {
         Self::trimmed(nets, |_| None, 0.0)
     }
 
-    /// The shell of nets, each with its trims, whose gaps up to `seal` are closed; `None` also if
-    /// nothing is left of them.
+    /// The shell of nets with their trims; gaps up to `seal` are closed. `None` also if the trims
+    /// leave nothing.
     pub(super) fn trimmed(
         nets: &[FaceNet],
         trim: impl Fn(usize) -> Option<FaceTrim>,
@@ -183,7 +183,7 @@ impl Shell {
         let scale = exponent(reach) + 1;
         let heaviest = points().fold(0.0, |m: f64, p| m.max(p[3].to_f64()));
         let rational = points().any(|p| p[3] != Dd::ONE);
-        // Without weights all are 1.
+        // If there are no weights, all are 1.
         let weight_scale = if rational { exponent(heaviest) + 1 } else { 0 };
         let middle = [centre.x, centre.y, centre.z].map(Dd::from);
         let (mut all, mut faces, mut exact) = (Vec::new(), Vec::new(), Vec::new());
@@ -233,8 +233,8 @@ impl Shell {
         })
     }
 
-    /// Points of faces that surely stay, with their faces: of a lattice, whose points are on no line that
-    /// a face is likely to be symmetric about.
+    /// Points that trims certainly keep, with their faces. They are from a lattice that avoids the
+    /// lines about which a face is likely to be symmetric.
     pub(super) fn kept_points(&self) -> impl Iterator<Item = (usize, Point3)> + '_ {
         const LATTICE: usize = 7;
         let at = |k: usize| (k as f64 + 0.37) / LATTICE as f64;
@@ -319,7 +319,7 @@ impl Shell {
         self.pour(at, early, sink).0
     }
 
-    /// Passes crossings, ascending, to `sink`; and how many of them are unproven.
+    /// Passes crossings to `sink`, ascending. Returns how many of them are unproven, too.
     #[inline(always)]
     fn pour(&self, at: &CentredRay<'_>, found: &[Found], sink: &mut dyn Sink) -> (ControlFlow<()>, usize) {
         let (mut roots, mut unproven) = (Sorted::new(), 0);
@@ -335,9 +335,10 @@ impl Shell {
         (if is_in_turn { roots.pour_in_turn(sink) } else { roots.pour(sink) }, unproven)
     }
 
-    /// Crossings in a range of the line, not yet told apart: of what stays of the faces and, if they are
-    /// `SEALED`, of what is off them but within the seal. `send` is called with the place where the next
-    /// cell begins, whenever crossings may be left behind; it says where the range ends now.
+    /// Finds the crossings in a range of the line, with duplicates: of the trimmed faces and, if
+    /// `SEALED`, also those outside within the seal's width. Calls `send` with the start of the
+    /// next cell whenever crossings before it may be final; `send` returns the present end of the
+    /// range.
     #[inline(always)]
     pub(super) fn meet<const SEALED: bool>(
         &self,
@@ -393,8 +394,8 @@ pub(super) fn overlap(a: &Found, b: &Found) -> bool {
 }
 
 impl Shell {
-    /// Leaves out crossings, from the first of these on, that are surely cut off. What may be is an
-    /// uncertain one.
+    /// Removes crossings, from index `first` on, that trims certainly cut off. One that may be cut
+    /// off becomes unproven.
     fn trim(&self, found: &mut Vec<Found>, first: usize) {
         let mut kept = first;
         for i in first..found.len() {
@@ -411,9 +412,9 @@ impl Shell {
         found.truncate(kept);
     }
 
-    /// Whether crossings of two patches are one, on an edge that they share: at the same place of the
-    /// line, in the same direction, and one of them may be on an edge. The other one may surely be
-    /// within its own patch, as patches are searched a little beyond their edges.
+    /// Whether crossings of two patches are one crossing on a shared edge: at the same place of the
+    /// line, in the same direction, and one of them may be on an edge. The other may be well within
+    /// its own patch, because the search goes a little beyond edges.
     #[inline(always)]
     fn is_shared(&self, a: &Found, b: &Found) -> bool {
         a.turn == b.turn
@@ -427,8 +428,8 @@ impl Shell {
         self.faces[f.face as usize].has_on_edge(f)
     }
 
-    /// Joins what is the same crossing: found in two cells, on their common border, or boxes that touch
-    /// each other and in which nothing is proven.
+    /// Joins duplicates: a crossing found in two cells on their common border, and unproven boxes
+    /// that touch each other.
     #[inline(always)]
     pub(super) fn distinct(&self, found: &mut Vec<Found>) {
         if found.len() > 1 {
@@ -449,17 +450,17 @@ impl Shell {
                         let old = &mut found[k];
                         let is_other = old.face != new.face;
                         let known = is_other || is_held(&new, old) || is_held(old, &new);
-                        // Beside a crease an unproven bracket may hold more crossings than the other
-                        // side's. Of a closed surface alternation tells.
+                        // Next to a crease an unproven bracket may hold more crossings than the one
+                        // of the other side. For a closed surface alternation decides.
                         let is_open = !self.is_closed && self.seal == 0.0;
                         let more = is_open && is_other && new.sign == 0 && !new.is_zero;
                         if old.sign == 0 || !known || more {
-                            // Nothing says whether that is one crossing or two.
+                            // It is unknown whether that is one crossing or two.
                             *old = old.joined(&new);
                         } else if new.sign != 0 && is_other {
                             *old = old.united(&new, |f| self.has_on_edge(f));
                         } else if new.sign != 0 && new.s_err < old.s_err {
-                            // Of two proofs the sharper one is kept.
+                            // Keep the sharper of two proofs.
                             *old = new;
                         }
                     }
@@ -475,8 +476,8 @@ impl Shell {
     }
 }
 
-/// Marks cells, from the first of these on, that are cut off or that a trim passes through. The former
-/// are left out unless they `stay`.
+/// Marks cells, from index `first` on, that are cut off or that a trim passes through. The former
+/// are removed unless `stay` is set.
 fn cut_off(trim: &FaceTrim, all: &mut Vec<(Cell, Aabb)>, first: usize, stay: bool) {
     let mut number = 0;
     all.retain_mut(|(cell, _)| {
@@ -524,8 +525,8 @@ pub(super) fn root(at: &CentredRay<'_>, found: &Found, tag: [f64; 2]) -> Option<
     root_at(at, (found.s, found.s_err), (found.face, tag), (found.sign, found.turn))
 }
 
-/// A crossing at `s` in the caller's parameter, on a face at the parameters `tag`, with its sign (0 if
-/// it is not proven) and the side to which it leads in any case; `None` if it is not in the ray's range.
+/// The root of a crossing at `s`, on a face at the parameters `tag`, with its sign (0 if unproven)
+/// and the side to which it leads in any case; `None` if it is not in the ray's range.
 #[inline(always)]
 pub(crate) fn root_at(
     at: &CentredRay<'_>,
@@ -536,8 +537,8 @@ pub(crate) fn root_at(
     let (lo, hi) = at.bracket((s - s_err).next_down(), (s + s_err).next_up());
     match at.admits(lo, hi) {
         Some(false) => return None,
-        // A ray that was spawned on the face starts off it: what its bracket cannot tell from the
-        // start is the start.
+        // A ray that was spawned on the face starts off it: a bracket that holds the start is the
+        // start itself.
         None if lo <= 0.0 && at.spawned().is_some_and(|(_, own, _)| own == face) => return None,
         _ => {}
     }

@@ -1,14 +1,15 @@
-//! Where a line may meet a cell in which nothing is proven: brackets are no longer than the hull of the
-//! cell's control points.
+//! The part of a line that may meet a cell in which nothing is proven: brackets are no longer than
+//! the hull of the cell's control points.
 //!
 //! A bound on slopes gives a bracket that reaches beyond the patch by the bound's own rounding: far
-//! beyond a flat patch that the line passes at a corner, and far along the parameter in which an edge is
-//! one point. The hull is shorter. A combination `g` of both functions is zero on the line, and `z`
-//! counts along it, so the control points are points `(g_i, z_i)` of a plane. `g` is the combination
-//! along the two control points that are about the farthest apart: the points of a flat patch then
-//! spread over that plane. Weights are positive, so all points of the cell are in the convex hull, and a
-//! crossing is in the hull's strip `|g| <= e` if every `g_i` is off by `e` at most. The strip ends where
-//! segments between two of the points cross `g = -e` and `g = e`, or at points in it.
+//! beyond a flat patch that the line passes at a corner, and far along the parameter in which an
+//! edge is one point. The hull is shorter. A combination `g` of both functions is zero on the line,
+//! and `z` measures along it, so the control points map to points `(g_i, z_i)` of a plane. `g` is
+//! the combination along the two control points that are about the farthest apart: then the points
+//! of a flat patch spread over that plane. Weights are positive, so all points of the cell are in
+//! the convex hull, and a crossing is in the hull's strip `|g| <= e` if the error of every `g_i` is
+//! at most `e`. The strip ends where segments between two of the points cross `g = -e` and `g = e`,
+//! or at points in it.
 
 use super::exact::Exact;
 use super::line::{Found, View};
@@ -16,7 +17,8 @@ use super::net::Homogeneous;
 use durer_math::U;
 use durer_roots::two_unknowns::ROUNDED;
 
-/// A box of a cell in which crossings cannot be told from misses; `None` if there is none in it.
+/// An unproven crossing for a box of a cell in which rounding hides whether there is one; `None` if
+/// there is certainly none.
 #[cold]
 #[inline(never)]
 pub(super) fn unresolved(
@@ -29,13 +31,13 @@ pub(super) fn unresolved(
     ends.is_none_or(|ends| found.is_shortened(ends)).then_some(found)
 }
 
-/// Shortens the brackets of unproven crossings of a cell, from the first of these on, to where the line
-/// may meet the cell, and leaves out those that are surely none.
+/// Shortens the brackets of unproven crossings of a cell, from index `first` on, to the part of the
+/// line that may meet the cell. Removes those that certainly miss it.
 #[cold]
 #[inline(never)]
 pub(super) fn shorten(view: &View<'_>, exact: &Exact<'_>, found: &mut Vec<Found>, first: usize) {
     let cell = view.cell;
-    // Of a half, the net of the triangle.
+    // For a half, use the net of the triangle.
     let half = if cell.is_half { exact.half(cell) } else { None };
     let Some(ends) = extent(view, half.as_deref().unwrap_or(&cell.net)) else { return };
     let mut number = 0;
@@ -45,9 +47,9 @@ pub(super) fn shorten(view: &View<'_>, exact: &Exact<'_>, found: &mut Vec<Found>
     });
 }
 
-/// The line's parameters between which it may meet the hull of control points, each number of which is
-/// off by what the cell's are; `None` if they are not known. The first one is the greater one if the line
-/// surely misses the hull.
+/// The line's parameters between which it may meet the hull of control points with the cell's
+/// errors; `None` if they are unknown. If the line certainly misses the hull, the first one is the
+/// greater.
 fn extent(view: &View<'_>, net: &[Homogeneous<f64>]) -> Option<[f64; 2]> {
     let (mut points, mut e, mut z_err) = (Vec::with_capacity(net.len()), [0.0_f64; 2], 0.0_f64);
     for p in net {
@@ -80,8 +82,8 @@ fn extent(view: &View<'_>, net: &[Homogeneous<f64>]) -> Option<[f64; 2]> {
     known.then(|| if low <= high { view.along([low, high], z_err) } else { [low, high] })
 }
 
-/// The least and the greatest `z` of the convex hull of points `(g, z)` where `|g| <= e`, less and more
-/// than all their roundings.
+/// The least and the greatest `z` of the convex hull of points `(g, z)` where `|g| <= e`, rounded
+/// outward.
 fn strip(points: &[(f64, f64)], e: f64) -> [f64; 2] {
     let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     let mut add = |z: f64, off: f64| ends = [ends[0].min(z - off), ends[1].max(z + off)];

@@ -2,11 +2,11 @@
 //! until every part is empty, holds one proven crossing, or is as small as the errors.
 //!
 //! T. Nishita, T. W. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches",
-//! *SIGGRAPH* 1990, clip the hull of the control points of `F`; A. Efremov, V. Havran, H.-P. Seidel,
-//! "Robust and numerically efficient Bezier clipping", *Spring Conference on Computer Graphics* 2005,
-//! list how clipping loses and doubles roots. Here the hull only leaves parts out, with its rounding
-//! charged; what remains is halved or proven by Krawczyk's test, and a zero on the border of two
-//! parts is recognised later, because each has a proof that it is alone in a wider box.
+//! *SIGGRAPH* 1990, clip the hull of the control points of `F`; A. Efremov, V. Havran, H.-P.
+//! Seidel, "Robust and numerically efficient Bezier clipping", *Spring Conference on Computer
+//! Graphics* 2005, list how clipping loses and doubles roots. Here the hull only excludes parts,
+//! with its rounding included; the rest is halved or proven by Krawczyk's test. A zero on the
+//! border of two parts is recognised later, because each proof holds in a wider box.
 
 use super::cell::{MARGIN, basis, power};
 use super::exact::Exact;
@@ -16,23 +16,23 @@ use core::ops::{Add, Mul, Sub};
 use durer_math::{Dd, Isa, U};
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
 
-/// The most parts of a cell that one ray looks at; the rest stays unresolved. A tangent needs a few
-/// hundred.
+/// The most parts of a cell that are examined for one ray; the rest stays unresolved. A tangent
+/// needs a few hundred.
 const MOST_STEPS: usize = 4096;
-/// Values of fewer errors than this all over a part cannot be told from zero.
+/// A part on which all values are within this many errors of zero is not halved further.
 const NOISE: f64 = 8.0;
 /// The least width of a part, in parameters of its cell.
 const LEAST: f64 = durer_math::scale::pow2(-48);
 
-/// No more parts of a cell than this are looked at in double-double for one ray.
+/// The most parts of a cell that are examined in double-double for one ray.
 const MOST_DOUBLE: usize = 64;
-/// A touch leaves no more parts open than meet in one point, twice. If there are more, a curve of the
-/// patch is on the ray, a collapsed edge say, and nothing is gained in double-double.
+/// A touch leaves at most as many parts open as meet in one point, twice. If there are more, a
+/// curve of the patch lies on the ray, such as a collapsed edge, and double-double does not help.
 const MOST_OPEN: usize = 8;
 
 /// The arithmetic of control values: f64, and double-double where f64 does not decide.
 trait Word: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> {
-    /// Bounds the relative error of a sum and of a product.
+    /// A bound on the relative error of a sum and of a product.
     const UNIT: f64;
 
     fn value(self) -> f64;
@@ -55,7 +55,7 @@ impl Word for Dd {
     }
 }
 
-/// A part of a cell: the control values of `F`, which are off by `e` at most.
+/// A part of a cell: the control values of `F`, with errors of at most `e`.
 struct Part<T> {
     f: Vec<[T; 2]>,
     e: [f64; 2],
@@ -63,7 +63,7 @@ struct Part<T> {
     width: [f64; 2],
 }
 
-/// The least and the greatest of a combination of both functions.
+/// The least and the greatest control value of a combination of both functions.
 #[inline(always)]
 fn range<T: Word>(f: &[[T; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -75,7 +75,7 @@ fn range<T: Word>(f: &[[T; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
 }
 
 impl<T: Word> Part<T> {
-    /// Whether a combination of the functions is not zero in the part.
+    /// Whether a combination of the functions has certainly no zero in the part.
     #[inline(always)]
     fn is_clear_of(&self, by: [f64; 2]) -> bool {
         let (low, high) = range(&self.f, by);
@@ -84,7 +84,7 @@ impl<T: Word> Part<T> {
         most > 0.0 && (low > e || high < -e)
     }
 
-    /// The size that a combination's terms have at most.
+    /// The largest magnitude of a combination's terms.
     #[inline(always)]
     fn most(&self, by: [f64; 2]) -> f64 {
         self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x.value()).abs() + (by[1] * y.value()).abs()))
@@ -124,8 +124,8 @@ impl<T: Word> Part<T> {
             if let Some([f, a, b]) = sums {
                 (local.f[i], local.j[i]) = (f.value(), [a.value(), b.value()]);
             }
-            // Control values are off by `e`, second differences by four times that, and what they
-            // round.
+            // Control values have the error `e`, second differences four times that and their
+            // roundings.
             let slack = 4.0 * self.e[i] + 8.0 * T::UNIT * most;
             let factors = [degree_u * (degree_u - 1.0), degree_u * degree_v, degree_v * (degree_v - 1.0)];
             for k in 0..3 {
@@ -140,8 +140,8 @@ impl<T: Word> Part<T> {
         (local, limits)
     }
 
-    /// Whether it is too small to be halved, or a combination of the functions cannot be told from
-    /// zero all over it.
+    /// Whether it is too small to be halved, or a combination of the functions is within rounding
+    /// of zero on all of it.
     #[inline(always)]
     fn is_noise(&self, by: [f64; 2]) -> bool {
         let (low, high) = range(&self.f, by);
@@ -210,7 +210,8 @@ fn reduced<T: Word>(curve: &[[T; 2]], t: f64) -> [T; 2] {
     now[0]
 }
 
-/// The crossings of a line and a part of a cell, in double-double; `false` if nothing is gained by that.
+/// Appends the crossings of a line and a part of a cell, in double-double; `false` if that does not
+/// help.
 #[cold]
 #[inline(never)]
 fn in_double(
@@ -290,7 +291,7 @@ fn in_double(
         open.push(low);
     }
     if left > 0 && view.turn(from, width) != 0 {
-        // The surface does not turn back there: what stays open is no touch, and the sign of the
+        // The surface does not turn back there, so an open part is no touch, and the sign of the
         // crossing is known better from farther away.
         out.truncate(first);
         return false;
@@ -317,8 +318,8 @@ fn singular(j: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
     }
 }
 
-/// The crossings of a line and a cell, and the boxes of the cell in which none can be told from a
-/// miss.
+/// Appends the crossings of a line and a cell, and the boxes of the cell in which crossing and miss
+/// cannot be distinguished.
 #[inline(never)]
 pub(super) fn meet(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
     Isa::detect().run(

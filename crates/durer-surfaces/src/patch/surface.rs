@@ -10,8 +10,8 @@ pub(super) trait Patches {
 
     fn shell(&self) -> &Shell;
 
-    /// Puts its own texture coordinates, and slopes along them, in the place of the parameters of the
-    /// root's face.
+    /// Replaces the parameters of the root's face by the surface's texture coordinates, and the
+    /// slopes by those along them.
     fn map_uv(&self, root: &Root, point: &mut SurfacePoint, need: Need);
 
     fn solidity(&self) -> Solidity {
@@ -70,7 +70,7 @@ macro_rules! surface_of_patches {
         }
 
         impl crate::compose::clip::Algebraic for $type {
-            /// Along a ray it has no polynomial of low degree.
+            /// The surface has no polynomial of low degree along a ray.
             fn polynomial(
                 &self,
                 _face: u32,

@@ -19,31 +19,31 @@ use durer_roots::bernstein::binomial;
 /// The control points of a triangular patch or of a part of it.
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleNet {
-    /// How many points a side has: the degree and one.
+    /// The number of points of a side: the degree plus one.
     pub(crate) side: usize,
     pub(crate) points: Vec<Homogeneous<Dd>>,
-    /// How far the points are off, as a part of the size of all.
+    /// The error of the points, relative to the size of all.
     pub(crate) lost: f64,
 }
 
-/// How many points a net has whose sides have this many.
+/// The number of points of a net with this many points on each side.
 pub(super) fn count(side: usize) -> usize {
     side * (side + 1) / 2
 }
 
-/// Where a point stands in the list of a net: `i` along u, `j` along v.
+/// The index of a point in the list of a net: `i` along u, `j` along v.
 #[inline(always)]
 fn place(side: usize, i: usize, j: usize) -> usize {
     j * (2 * side + 1 - j) / 2 + i
 }
 
-/// The control points of the lower left half of a patch over a square that is of degree n in both
-/// parameters together, without weights; and how many roundings of the largest point they are off by.
+/// The control points of the lower left half of a patch over a square, of total degree n in both
+/// parameters and without weights; and their error, in roundings of the largest point.
 ///
 /// With `D_pq` the blossom at the corner (`n - p - q` times) and along `u` (`p` times) and `v` (`q`
 /// times): `P_ij = sum (i over p) (j over q) D_pq`, and by the differences of the square's points
-/// `D_pq = n! (n - p - q)! / ((n - p)! (n - q)!) Delta_u^p Delta_v^q`. Differences and sums enlarge errors
-/// by two each, and there are at most n of either.
+/// `D_pq = n! (n - p - q)! / ((n - p)! (n - q)!) Delta_u^p Delta_v^q`. Each difference or sum at
+/// most doubles errors, and there are at most n of either.
 pub(super) fn lower_half(square: &[Homogeneous<f64>], side: usize) -> (Vec<[f64; 3]>, f64) {
     let n = side - 1;
     let mut d: Vec<[f64; 3]> = square.iter().map(|p| [p[0], p[1], p[2]]).collect();
@@ -71,7 +71,7 @@ pub(super) fn lower_half(square: &[Homogeneous<f64>], side: usize) -> (Vec<[f64;
             d[at(p, q)] = d[at(p, q)].map(|x| x * by);
         }
     }
-    // Sums undo the differences of the points that are left.
+    // Sums undo the differences of the remaining points.
     for level in (1..=n).rev() {
         for j in 0..side {
             for i in level..side - j {
@@ -131,8 +131,8 @@ impl TriangleNet {
         Self { side, points, lost: self.lost }
     }
 
-    /// The same polynomials over the square whose lower left half the triangle is, as a net of a
-    /// patch of degree n along both parameters.
+    /// The polynomials over the square whose lower left half is the triangle, as the net of a patch
+    /// of degree n along both parameters.
     ///
     /// With `C` the corner (1, 1), the point `P_ij` of that net is the mean over all ways to pair `i`
     /// times `u = 1` with `j` times `v = 1`: `k` of the pairs are at `C`. The blossom there follows

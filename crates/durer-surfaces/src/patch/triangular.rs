@@ -8,11 +8,11 @@
 //!     │  ●───●───● ▶ u
 //! ```
 //!
-//! It is met as the lower left half of a patch of the same degree along both parameters
-//! (`triangle_net.rs`): cells are squares, and those on the long side count for the half that is in
-//! the triangle. P. de Casteljau's curves over triangles (1959); G. Farin, "Triangular
-//! Bernstein-Bezier patches", *Computer Aided Geometric Design* 3 (1986) 83-127; for ray tracing
-//! W. Stuerzlinger, "Ray-tracing triangular trimmed free-form surfaces", *IEEE Transactions on
+//! It is intersected as the lower left half of a patch of the same degree along both parameters
+//! (`triangle_net.rs`): cells are squares, and on the long side only the halves in the triangle
+//! belong to it. P. de Casteljau's curves over triangles (1959); G. Farin, "Triangular
+//! Bernstein-Bezier patches", *Computer Aided Geometric Design* 3 (1986) 83-127; for ray tracing W.
+//! Stuerzlinger, "Ray-tracing triangular trimmed free-form surfaces", *IEEE Transactions on
 //! Visualization and Computer Graphics* 4 (1998) 202-214.
 
 use super::net::{FaceNet, Net};
@@ -26,10 +26,10 @@ use std::sync::Arc;
 
 /// The most points of a side: degree 8.
 const MOST_SIDE: usize = 9;
-/// Weights may differ by this factor: the patch is also computed a little beyond its long side, where
-/// weights fall off the faster the more they differ.
+/// The largest ratio of weights: the patch is also computed a little beyond its long side, where
+/// weights decrease faster the more they differ.
 const WEIGHTS: f64 = 256.0;
-/// Points in units, and what is computed with them, are off by this part of the size of all.
+/// The error of points in units, and of results computed from them, relative to the size of all.
 pub(super) const LOST: f64 = durer_math::scale::pow2(-97);
 
 /// A Bezier patch over a triangle, of degree 1 to 8, with or without weights. An open surface; its

@@ -1,13 +1,13 @@
-//! A ray as a surface's kernel sees it: counted from the surface's centre, in units of its size,
-//! from the point nearest to it (rules W3 and W4).
+//! A ray relative to a surface's centre, in units of its size, starting at the point nearest to the
+//! centre (rules W3 and W4).
 
 use super::{End, LocalRay, ParameterMap, RingRay, TINY, U, relative};
 use crate::Root;
 use durer_math::eft::{scale2, two_sum};
 use durer_math::{Dd, EFloat, Point3, RaySide, Ring, Vec3};
 
-/// With fewer roundings than this a ray is known well enough in f64: what double-double costs is
-/// what they cost.
+/// A ray with fewer roundings than this stays in f64: the loss is then less than the cost of
+/// double-double.
 const MANY: f64 = 32.0;
 
 /// A local ray re-centred and rescaled: its points are `centre + 2^scale (o + s d)`, and
@@ -38,7 +38,7 @@ impl<'a> CentredRay<'a> {
         self.ray.inverse_d2
     }
 
-    /// The ray this one came from.
+    /// The ray that was re-centred.
     #[inline(always)]
     pub fn local(&self) -> &'a LocalRay<'a> {
         self.ray
@@ -50,8 +50,8 @@ impl<'a> CentredRay<'a> {
         self.ray.source
     }
 
-    /// Where a ray that was spawned on this primitive starts: the side, the face and the `s` of
-    /// `t = 0`, if its range starts there too.
+    /// For a ray that was spawned on this primitive and whose range starts at `t = 0`: the side,
+    /// the face and the `s` of the start.
     #[inline(always)]
     pub fn spawned(&self) -> Option<(RaySide, u32, EFloat)> {
         let side = self.ray.source?;
@@ -67,13 +67,13 @@ impl<'a> CentredRay<'a> {
         Some(self.centred(self.ray.in_ring()?))
     }
 
-    /// The same in double-double: what the ray is there may be [known](LocalRay::keeping).
+    /// [`CentredRay::in_ring`] in double-double; uses the local ray's [cache](LocalRay::keeping).
     #[inline(always)]
     pub(crate) fn in_double(&self) -> Option<RingRay<EFloat<Dd>>> {
         Some(self.centred(self.ray.in_double()?))
     }
 
-    /// The local ray, as seen from the centre.
+    /// Converts the local ray to this centre and unit.
     #[inline(always)]
     fn centred<T: Ring>(&self, ray: RingRay<T>) -> RingRay<T> {
         let RingRay { o: [x, y, z], d, w } = ray.moved(self.centre, self.step);
@@ -83,9 +83,9 @@ impl<'a> CentredRay<'a> {
         RingRay { o: [x.scale2(k), y.scale2(k), z.scale2(k)], d, w }
     }
 
-    /// The same ray with origin and direction rounded from double-double, if maps on its way make
-    /// more than 32 roundings of one, in a frame in which the surface is `size` large: a shear
-    /// makes lengths of what it takes away again, and with them what they are rounded by.
+    /// The ray with origin and direction rounded from double-double, if its maps have turned one
+    /// rounding into more than 32, in a frame in which the surface has the size `size`: a shear
+    /// creates large terms that cancel again, but not their roundings.
     #[inline(always)]
     #[must_use]
     pub fn sharp(self, size: f64) -> Self {
@@ -180,7 +180,7 @@ impl<'a> CentredRay<'a> {
         let lo = (t_lo - shift_hi) - shift_lo - slack(t_lo);
         let hi = (t_hi - shift_hi) - shift_lo + slack(t_hi);
         let back = |x: f64| scale2(x, -self.clock.k);
-        // An infinite end minus an infinite slack is NaN: no bound.
+        // An infinite end minus an infinite slack is NaN, and gives no bound.
         let bound = |x: f64, none: f64| if x.is_nan() { none } else { x };
         (bound(back(lo) - TINY, f64::NEG_INFINITY), bound(back(hi) + TINY, f64::INFINITY))
     }
@@ -188,13 +188,13 @@ impl<'a> CentredRay<'a> {
     /// For each end of a range of `t`, numbers `(lo, hi)` such that brackets of `s` outside
     /// `[lo, hi]` have brackets of `t` that do not hold that end.
     pub fn ends(&self, (t_lo, t_hi): (f64, f64)) -> [(f64, f64); 2] {
-        // The slack of a window is more than a bracket is rounded by: that is an error of the
-        // clock, and three units in the last place.
+        // The slack of a window exceeds the rounding of a bracket, which is an error of the
+        // parameter map and three units in the last place.
         let end = |t: f64| if t.is_finite() { self.window((t, t)) } else { (t, t) };
         [end(t_lo), end(t_hi)]
     }
 
-    /// The `s` of `t = 0`, rounded, with its sign turned: `t = 2^k (origin + s)`.
+    /// The negated `s` of `t = 0`, rounded: `t = 2^k (origin + s)`.
     #[inline(always)]
     pub fn shift(&self) -> f64 {
         scale2(self.clock.shift().0, -self.clock.k)

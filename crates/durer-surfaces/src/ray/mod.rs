@@ -1,12 +1,12 @@
-//! The ray as a surface sees it: re-centred, rescaled, with its rounding charged, and exact on
+//! The ray in a surface's frame: re-centred, rescaled, with bounds on its rounding, and exact on
 //! demand.
 //!
 //! Every kernel starts with one step, [`LocalRay::recentre`]: the parameter moves to the closest
-//! approach to the surface's centre and lengths are scaled by a power of two, so that the numbers a
-//! kernel meets are of the surface's size and not of the distance to the eye. The step is not
-//! exact, but its error is known ([`CentredRay::o_err`]), about two roundings of the *local* size;
-//! and the ray remembers where it came from, so that a doubtful decision can be taken again in any
-//! [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
+//! approach to the surface's centre and lengths are scaled by a power of two, so that the numbers
+//! in a kernel have the magnitude of the surface's size and not of the distance to the eye. The
+//! step is not exact, but its error is bounded ([`CentredRay::o_err`]): about two roundings of the
+//! *local* size. The ray keeps its origin and maps, so that a doubtful decision can be repeated in
+//! any [`Ring`], up to exact arithmetic ([`CentredRay::in_ring`]).
 
 mod centred;
 mod point;
@@ -21,8 +21,9 @@ use durer_math::{Aabb, Affine, Dd, EFloat, Isa, Point3, Ray, RaySide, Ring, Vec3
 
 /// Half an ulp of 1.
 const U: f64 = 1.0 / (1u64 << 53) as f64;
-/// Pays for results below the normal range. Far more than needed, so that it and its multiples are
-/// normal numbers: on many CPUs a subnormal operand costs a hundred times the operation itself.
+/// Covers results below the normal range. It is far larger than needed, so that it and its
+/// multiples are normal numbers: on many CPUs a subnormal operand costs a hundred times the
+/// operation itself.
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// The least step worth taking: `2^-600`.
@@ -61,13 +62,12 @@ pub struct LocalRay<'a> {
     kept: Option<&'a WideCache>,
 }
 
-/// Room for what a ray is in double-double, which is found once if anybody asks: see
-/// [`LocalRay::keeping`].
+/// A cache for a ray in double-double, which is computed at first use: see [`LocalRay::keeping`].
 #[derive(Debug, Default)]
 pub struct WideCache(OnceCell<Option<RingRay<EFloat<Dd>>>>);
 
 impl WideCache {
-    /// Room.
+    /// An empty cache.
     #[inline(always)]
     pub fn new() -> Self {
         Self(OnceCell::new())
@@ -93,7 +93,7 @@ struct ParameterMap {
 }
 
 impl ParameterMap {
-    /// The clock of a parameter `s'` with `s = step + 2^k s'`.
+    /// The map of a parameter `s'` with `s = step + 2^k s'`.
     #[inline(always)]
     fn then(mut self, step: f64, k: i32) -> Self {
         let term = scale2(step, self.k);
@@ -107,7 +107,7 @@ impl ParameterMap {
         self
     }
 
-    /// The shift as an unevaluated sum and a bound on what that leaves out.
+    /// The shift as an unevaluated sum, and a bound on the rest.
     #[inline(always)]
     fn shift(&self) -> (f64, f64, f64) {
         match self.len {
@@ -128,8 +128,8 @@ impl ParameterMap {
     }
 }
 
-/// How wide a bracket may be, relative to `max(|t|, size / |d|)`, where nobody measures: about a
-/// millionth of a pixel. All decisions are exact all the same.
+/// The largest width of a bracket for pictures, relative to `max(|t|, size / |d|)`: about a
+/// millionth of a pixel. Decisions are exact nevertheless.
 pub const PREVIEW_WIDTH: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// An end of a ray's range.
@@ -155,8 +155,8 @@ fn relative(p: Point3, err: Vec3, centre: Point3) -> (Vec3, Vec3) {
     (Vec3::new(x, y, z), Vec3::new(ex, ey, ez))
 }
 
-/// A vector, known within `e`, through the inverse of an affine map's linear part; with a bound on
-/// the result's error.
+/// Maps a vector, known within `e`, through the inverse of an affine map's linear part. Returns a
+/// bound on the result's error, too.
 #[inline(always)]
 pub(crate) fn through_inverse(affine: &Affine, v: Vec3, e: Vec3) -> (Vec3, Vec3) {
     let (inverse, slack) = (affine.inverse_linear(), affine.inverse_error());
@@ -207,14 +207,13 @@ pub struct RingRay<T> {
 }
 
 impl LocalRay<'static> {
-    /// The ray itself, in the frame in which it is given. The ray must be valid
-    /// ([`Ray::is_valid`]).
+    /// The ray in the frame in which it is given. It must be valid ([`Ray::is_valid`]).
     #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
         Self::with_errors(ray, Vec3::ZERO, Vec3::ZERO)
     }
 
-    /// A ray of which origin and direction are known only within errors (per axis).
+    /// A ray whose origin and direction are known only within errors (per axis).
     #[inline(always)]
     pub fn with_errors(ray: &Ray, o_err: Vec3, d_err: Vec3) -> Self {
         let k = -exponent(ray.direction.max_abs());
@@ -252,7 +251,7 @@ fn loss(before: f64, after: f64, err: f64) -> f64 {
 }
 
 impl<'a> LocalRay<'a> {
-    /// The same ray, known to start at `side` of the surface it is about to meet.
+    /// The ray, marked to start on `side` of the surface that is tested next.
     #[inline(always)]
     #[must_use]
     pub fn from_side(mut self, side: Option<RaySide>) -> Self {
@@ -260,13 +259,13 @@ impl<'a> LocalRay<'a> {
         self
     }
 
-    /// Whether the parameter is the caller's but for a factor: `o` is the point at `t = 0`.
+    /// Whether the parameter is the caller's times a factor, so that `o` is the point at `t = 0`.
     #[inline(always)]
     pub fn starts_at_zero(&self) -> bool {
         self.clock.len == 0
     }
 
-    /// The same ray, for someone who looks and does not measure: see [`LocalRay::rough`].
+    /// The ray with brackets of the preview width, for pictures: see [`LocalRay::rough`].
     #[inline(always)]
     #[must_use]
     pub fn roughly(mut self) -> Self {
@@ -275,10 +274,10 @@ impl<'a> LocalRay<'a> {
     }
 
     /// A range of `t` (caller's parameter) that holds all points of the ray in a box; `None` if
-    /// there surely are none.
+    /// there are certainly none.
     ///
-    /// Slabs (T. L. Kay, J. T. Kajiya, SIGGRAPH 1986). On an axis on which the direction is known
-    /// to `2^-20` of itself the ends' parameters are off by less than `2^-19` of their size: that,
+    /// Slabs (T. L. Kay, J. T. Kajiya, SIGGRAPH 1986). On an axis on which the direction's relative
+    /// error is at most `2^-20`, the relative error of the ends' parameters is below `2^-19`: that,
     /// the origin's error and its rounding are added. Other axes give no bound.
     #[inline(always)]
     pub fn within(&self, bounds: &Aabb) -> Option<(f64, f64)> {
@@ -333,7 +332,7 @@ impl<'a> LocalRay<'a> {
     #[inline(always)]
     fn closest_approach(&self, c: Point3) -> f64 {
         let t = (c - self.o).dot(self.d) * self.inverse_d2;
-        // A step so small that scaling might cost it bits is no step.
+        // A step so small that scaling might lose bits of it is replaced by zero.
         if t.abs() >= LEAST_STEP && t.abs() < f64::INFINITY { t } else { 0.0 }
     }
 
@@ -360,8 +359,8 @@ impl<'a> LocalRay<'a> {
         self.point_at(self.t_min).0
     }
 
-    /// The point at the caller's parameter `t`, with a bound on its error, without the detour over
-    /// the closest approach.
+    /// The point at the caller's parameter `t`, with a bound on its error, computed without
+    /// re-centring.
     fn point_at(&self, t: f64) -> (Point3, Vec3) {
         match self.lineage {
             Lineage::Given { k, .. } => {
@@ -378,7 +377,7 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The exact ray in a ring, in this ray's own parameter, seen from `centre` in units of
+    /// The exact ray in a ring, in this ray's own parameter, relative to `centre`, in units of
     /// `2^scale`: unlike [`CentredRay::in_ring`] the parameter does not depend on the centre, so
     /// that two surfaces can share it.
     pub fn in_ring_from<T: Ring>(&self, centre: Point3, scale: i32) -> Option<RingRay<T>> {
@@ -402,8 +401,8 @@ impl<'a> LocalRay<'a> {
         let (hi, lo, lost) = self.clock.shift();
         let x = scale2(s, self.clock.k);
         let t = hi + (lo + x);
-        // Two roundings, of numbers that are no larger than this sum but for theirs; and what
-        // scaling may have lost.
+        // Two roundings, of numbers no larger than this sum up to rounding, and the loss by
+        // scaling.
         let err = (hi.abs() + lo.abs() + x.abs()).mul_add(4.0 * U, lost * 2.0) + TINY;
         (t - err, t + err)
     }
@@ -416,8 +415,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray as seen from `centre`, with lengths in units of `2^scale`: what every kernel works
-    /// on (rules W3 and W4).
+    /// The ray relative to `centre`, with lengths in units of `2^scale`, for kernels (rules W3 and
+    /// W4).
     ///
     /// `scale` should make the surface's size about one.
     #[inline(always)]
@@ -437,8 +436,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray as seen from its own start (of the parameter), in its own units: for surfaces that
-    /// have no middle.
+    /// The ray relative to its own point at `s = 0`, in its own units: for surfaces without a
+    /// centre.
     #[inline(always)]
     pub fn unmoved(&'a self) -> CentredRay<'a> {
         CentredRay {
@@ -454,8 +453,8 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The ray in the frame of a surface that `affine` places: through the inverse map, re-centred
-    /// on its centre first (rules W3 and W5), the inverse's own error charged.
+    /// The ray in the frame of a surface that `affine` places: re-centred on the map's centre, then
+    /// mapped by the inverse (rules W3 and W5), with the inverse's own error added.
     #[inline(always)]
     pub fn through(&'a self, affine: &'a Affine) -> LocalRay<'a> {
         let c = affine.centre();
@@ -483,7 +482,7 @@ impl<'a> LocalRay<'a> {
         }
     }
 
-    /// The same ray, with room for what many surfaces may ask about it.
+    /// The ray with a cache for its double-double form, which many surfaces may need.
     #[inline(always)]
     #[must_use]
     pub fn keeping(self, kept: &'a WideCache) -> Self {

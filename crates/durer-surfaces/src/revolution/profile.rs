@@ -29,7 +29,7 @@ impl Stand {
         (T::exact(self.at) - T::exact(self.frame.centre.y)).scale2(-self.frame.scale)
     }
 
-    /// The origin of a ray with its height counted from `at`.
+    /// The origin of a ray with its height relative to `at`.
     #[inline(always)]
     fn seen<T: Ring>(&self, ray: &RingRay<T>) -> [T; 3] {
         let [x, y, z] = ray.o.clone();
@@ -42,7 +42,7 @@ impl Stand {
         scale2(self.at - self.frame.centre.y, -self.frame.scale)
     }
 
-    /// A point in f64 whose height is counted from `at`.
+    /// A point in f64 with its height relative to `at`.
     #[inline(always)]
     fn point(&self, y: Vec3) -> Vec3 {
         Vec3::new(y.x, y.y - self.at_height(), y.z)

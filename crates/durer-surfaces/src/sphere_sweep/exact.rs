@@ -1,10 +1,11 @@
 //! The spans of a line by exact arithmetic.
 //!
-//! The runs of a piece are those of `D >= 0`, whose roots are isolated. Where a number `s` lies
-//! relative to the interval of a run is told by `g(u) = |x - c(u)|² - r(u)²` at the point `s`: it is
-//! positive where the line does not meet the ball, so if it has a root within the run the point is in a
-//! ball; if not, all balls are before the point or all behind it, and one tells which. So brackets
-//! can be made as narrow as f64 numbers are, and two runs be compared.
+//! The runs of a piece are those of `D >= 0`, whose roots are isolated. The signs of
+//! `g(u) = |x - c(u)|² - r(u)²` at the point `x` of a number `s` decide where `s` lies relative to
+//! the interval of a run. `g` is positive where the line does not meet the ball, so if it has a
+//! root within the run the point is in a ball; if not, all balls are before the point or all behind
+//! it, and one ball decides which. So brackets can be as narrow as f64 allows, and two runs can be
+//! compared.
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;
@@ -17,7 +18,7 @@ use core::cmp::Ordering::{Equal, Greater, Less};
 use durer_math::{Dyadic, Ring, U};
 use durer_roots::exact::{ExactRoots, Isolated};
 
-/// Two runs that are nearer to each other than `2^-MOST_HALVINGS` touch.
+/// Two runs that are nearer to each other than `2^-MOST_HALVINGS` count as touching.
 const MOST_HALVINGS: u32 = 400;
 /// No point of the sweep is farther from the line's own origin, in units.
 const FAR: f64 = 8.0;
@@ -51,16 +52,16 @@ struct ExactPiece {
     disc: Poly,
 }
 
-/// Where `D >= 0`: the closed part of a piece from `from` to `to`, outside of which, up to there,
-/// `D` is negative.
+/// A closed part of a piece where `D >= 0`. It lies between `from` and `to`; `D` is negative on the
+/// rest of that interval.
 struct ExactRun {
     from: Dyadic,
     to: Dyadic,
     first: bool,
     last: bool,
-    /// The line does not only touch it in one point.
+    /// False if the line only touches it in one point.
     thick: bool,
-    /// A ball that the line meets, and about where it is.
+    /// A ball that the line meets, and its approximate place.
     ball: Ball,
     about: f64,
 }
@@ -76,7 +77,7 @@ struct Member {
     run: ExactRun,
 }
 
-/// Runs that go on from piece to piece.
+/// Runs that continue from piece to piece.
 struct Chain {
     members: Vec<Member>,
     span: Span,
@@ -219,8 +220,8 @@ fn place(pieces: &[ExactPiece], members: &[Member], s: &Dyadic) -> Ordering {
     told
 }
 
-/// A bracket, no wider than is asked for or than f64 can tell, of the number at which `is_behind`
-/// turns from false to true.
+/// A bracket, as narrow as requested or as f64 allows, of the number at which `is_behind` changes
+/// from false to true.
 fn bracket(guess: f64, widths: &Widths, is_behind: impl Fn(&Dyadic) -> bool) -> (f64, f64) {
     let behind = |s: f64| is_behind(&Dyadic::from(s));
     let guess = if guess.is_finite() { guess.clamp(-FAR, FAR) } else { 0.0 };
@@ -258,7 +259,7 @@ fn bracket(guess: f64, widths: &Widths, is_behind: impl Fn(&Dyadic) -> bool) -> 
     (lo, hi)
 }
 
-/// How the intervals of two chains lie: `Equal` if they meet.
+/// The order of the intervals of two chains: `Equal` if they meet.
 fn order(pieces: &[ExactPiece], a: &Chain, b: &Chain) -> Ordering {
     if a.span.to.hi < b.span.from.lo {
         return Less;
@@ -288,12 +289,12 @@ fn order(pieces: &[ExactPiece], a: &Chain, b: &Chain) -> Ordering {
 struct Groups {
     pieces: Vec<ExactPiece>,
     groups: Vec<Vec<Chain>>,
-    /// False if the ray is not exactly known, so that these are the runs of one near it.
+    /// False if the ray is not exactly known; then these are the runs of a nearby ray.
     certain: bool,
 }
 
-/// The spans of the line, ascending; false if the ray is not exactly known, so that the spans are
-/// those of one near it.
+/// Finds the spans of the line, ascending. Returns false if the ray is not exactly known; then the
+/// spans are those of a nearby ray.
 pub(super) fn unite<const K: usize, const M: usize>(
     sweep: &SphereSweep,
     basis: &Basis<K, M>,
@@ -311,11 +312,11 @@ pub(super) fn unite<const K: usize, const M: usize>(
     certain
 }
 
-/// A step along the line, in units: far less than the ends of a span are apart.
+/// A step along the line, in units: far less than the distance between the ends of a span.
 const STEP: f64 = durer_math::scale::pow2(-300);
 
-/// Where an end of the range, moved by some steps, lies relative to a span, by its number; `None`
-/// if that is not known.
+/// The position of an end of the range, moved by `steps` [`STEP`]s, relative to the span with this
+/// number; `None` if unknown.
 #[cold]
 #[inline(never)]
 pub(super) fn place_of_end<const K: usize, const M: usize>(
@@ -370,7 +371,7 @@ fn grouped<const K: usize, const M: usize>(
     }
     let mut chains: Vec<Chain> = open.into_iter().map(|members| chain(&pieces, members, widths)).collect();
     chains.sort_by(|a, b| a.span.from.lo.total_cmp(&b.span.from.lo));
-    // Chains that meet are one; which ones do is transitive.
+    // Chains that meet form one group, transitively.
     let mut groups: Vec<Vec<Chain>> = Vec::new();
     for chain in chains {
         let (meeting, apart): (Vec<_>, Vec<_>) = groups
@@ -387,7 +388,7 @@ fn grouped<const K: usize, const M: usize>(
 
 /// A chain with its span.
 fn chain(pieces: &[ExactPiece], members: Vec<Member>, widths: &Widths) -> Chain {
-    // About where its balls are, and which one reaches farthest.
+    // The approximate places of its balls, and which one reaches farthest.
     let guess = |sign: f64| {
         let mut best = (f64::NEG_INFINITY, (0, 0.0));
         for Member { piece, run } in &members {
@@ -409,7 +410,7 @@ fn chain(pieces: &[ExactPiece], members: Vec<Member>, widths: &Widths) -> Chain 
                     x = next;
                 }
             }
-            // A run may be narrower than f64 can tell.
+            // A run may be narrower than the spacing of f64 numbers.
             if best.0 == f64::NEG_INFINITY {
                 best = (sign * at(&piece.b, x) / a, (piece.number, x));
             }

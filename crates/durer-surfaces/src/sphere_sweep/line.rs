@@ -1,5 +1,5 @@
-//! One piece of a sweep and a line: the runs of balls that the line meets, and where the interval of
-//! each run ends, with proof. In f64 and, by the same code, in double-double.
+//! One piece of a sweep and a line: the runs of balls that the line meets, and proven ends of each
+//! run's interval. In f64 and, by the same code, in double-double.
 #![expect(clippy::needless_range_loop, reason = "several arrays have the same axes and powers")]
 
 use super::SphereSweep;
@@ -11,16 +11,16 @@ use durer_math::efloat::Word;
 use durer_math::{Dd, EFloat, Ring, U};
 use durer_roots::bernstein::{Bernstein, Count};
 
-/// No stretch of a piece is halved more often to find the signs of `D`.
+/// The most halvings of a stretch of a piece to find the signs of `D`.
 const FINEST: u32 = 40;
-/// No stretch of a piece is halved more often to prove a polynomial positive.
+/// The most halvings of a stretch of a piece to prove a polynomial positive.
 const DEEPEST: u32 = 30;
 /// The most runs of a piece: `D` has six roots at most.
 pub(super) const MOST: usize = 4;
-/// Pays for the rounding of a few f64 operations on numbers that are bounds themselves.
+/// Covers the rounding of a few f64 operations on bounds.
 const ROUNDED: f64 = 1.0 + 64.0 * U;
 
-/// A question that numbers of this precision do not decide.
+/// Numbers of this precision leave the answer open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt;
 
@@ -139,8 +139,7 @@ impl<T: Word, const K: usize> Curve<T, K> {
         out
     }
 
-    /// The coefficients of `|c|² - r²`, without those that are smaller than `x^from`, of which each
-    /// is a product of coefficients from `from` on.
+    /// The coefficients of `|c|² - r²` without the terms of `c` and `r` of degrees below `from`.
     #[inline(always)]
     fn square<const M: usize>(&self, from: usize) -> [EFloat<T>; M] {
         let mut out = [EFloat::<T>::exact(0.0); M];
@@ -154,7 +153,7 @@ impl<T: Word, const K: usize> Curve<T, K> {
         out
     }
 
-    /// The same curve with `x = at + z`, in `z`.
+    /// The curve in `z`, with `x = at + z`.
     #[inline(always)]
     fn moved(&self, at: f64) -> Self {
         let at = EFloat::<T>::exact(at);
@@ -170,8 +169,8 @@ impl<T: Word, const K: usize> Curve<T, K> {
         out
     }
 
-    /// `|c - s d|² - r²` and its slope in `s`, without error; `high` are the terms that do not
-    /// depend on `s`.
+    /// `|c - s d|² - r²`, and its slope in `s` without an error bound; `high` has the terms that do
+    /// not depend on `s`.
     #[inline(always)]
     fn around<const M: usize>(
         &self,
@@ -228,13 +227,13 @@ impl<T: Word, const K: usize> Curve<T, K> {
     }
 }
 
-/// How wide brackets shall be.
+/// The width of brackets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Widths {
     /// `t = 2^k (origin + s)`.
     pub(super) origin: f64,
-    /// Half the width that is asked for, relative to the greater one of `t` and the size; with more
-    /// than the other half nothing is proven.
+    /// Half the requested width, and half the largest width that counts as a proof, both relative
+    /// to the larger one of `t` and the size.
     pub(super) half: f64,
     pub(super) most: f64,
 }
@@ -260,18 +259,18 @@ pub(super) struct RunEnd {
 /// Consecutive balls of one piece that the line meets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
-    /// `D` is positive at some `x` in between, and certainly negative at these, unless they are ends
-    /// of the piece at which the run goes on.
+    /// `D` is positive at some `x` in between, and certainly negative at `from` and `to`, except at
+    /// ends of the piece at which the run continues.
     from: f64,
     to: f64,
-    /// The run holds the first ball of the piece; the last one.
+    /// Whether the run holds the first ball of the piece, and the last one.
     pub(super) first: bool,
     pub(super) last: bool,
-    /// `D` is certainly positive at these.
+    /// Two `x` at which `D` is certainly positive.
     sure: [f64; 2],
 }
 
-/// A piece as a line sees it.
+/// A piece relative to a line.
 pub(super) struct PieceLine<T, const K: usize, const M: usize> {
     number: u32,
     /// Relative to the line's point at `step`.
@@ -372,8 +371,8 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
                     if bits > FINEST || !form.tells() {
                         return Err(Doubt);
                     }
-                    // A split where the sign is certain; near the middle there is one, unless all
-                    // is in doubt.
+                    // Splits where the sign is certain. There is such a point near the middle,
+                    // unless all signs are uncertain.
                     let mut split = None;
                     for (part, more) in [(0.5, 1), (0.4375, 4), (0.5625, 4)] {
                         if split.is_none() {
@@ -424,8 +423,8 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         (up > 0.0, -up / bend)
     }
 
-    /// The ball of a run that reaches farthest, about: `sign` is 1 for the greatest `s`, -1 for the
-    /// least. `hint` is a ball that is looked at, too.
+    /// Approximates the ball of a run that reaches farthest: `sign` is 1 for the greatest `s`, -1
+    /// for the least. `hint` is one more ball to try.
     #[inline(always)]
     fn farthest(&self, run: &Run, sign: f64, hint: Option<f64>) -> f64 {
         let count = if K == 2 {
@@ -501,7 +500,7 @@ impl<T: Word, const K: usize, const M: usize> PieceLine<T, K, M> {
         Err(Doubt)
     }
 
-    /// The same where the ball is known about; or a ball that reaches farther.
+    /// [`PieceLine::end`] for an approximate ball. The error may name a ball that reaches farther.
     #[inline(always)]
     fn end_near(&self, run: &Run, x: f64, sign: f64, widths: &Widths) -> Result<RunEnd, Option<f64>> {
         let here = self.curve.moved(x);
@@ -567,11 +566,11 @@ enum Positive {
     Unknown,
 }
 
-/// Whether a polynomial in `z` is positive from `l` to `r`; zero is in between, and the value there
-/// may be as small as it likes.
+/// Whether a polynomial in `z` is positive from `l` to `r`; zero is in between, and the value at
+/// zero may be arbitrarily small.
 ///
-/// Near zero, within `ρ`, it is at least `p_0 - |p_1 z| + κ z²` with `κ = p_2 - Σ_(k>2) |p_k|
-/// ρ^(k-2)`; the rest is told by its Bernstein form.
+/// Near zero, within `ρ`, it is at least `p_0 - |p_1 z| + κ z²` with
+/// `κ = p_2 - Σ_(k>2) |p_k| ρ^(k-2)`; the Bernstein form decides the rest.
 #[inline(always)]
 fn positive<T: Word, const M: usize>(
     p: &[EFloat<T>; M],
@@ -587,7 +586,8 @@ fn positive<T: Word, const M: usize>(
     if least.partial_cmp(&0.0) != Some(Ordering::Greater) {
         return Positive::Unknown;
     }
-    // How fast it may fall to either side, and how fast it surely rises if there is only one.
+    // How fast it may fall to either side, and how fast it certainly rises if there is only one
+    // side.
     let (to_left, to_right) = (p[1].hi(), -p[1].lo());
     let (fall, rise) = match (at_left, at_right) {
         (true, _) => (to_right, -to_right),
@@ -617,7 +617,7 @@ fn positive<T: Word, const M: usize>(
     if !clear {
         return bernstein_positive(p, l, r);
     }
-    // An end of the piece is one exactly.
+    // The ends of the piece are exact.
     let rho = rho * (1.0 - 4.0 * U);
     for (a, b) in [(l, -rho), (rho, r)] {
         if a < b {

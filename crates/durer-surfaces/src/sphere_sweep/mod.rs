@@ -88,7 +88,7 @@ pub enum SphereSweepError {
     /// All radii are zero: there is a curve, but no solid.
     #[error("sphere sweep: all radii are 0, so it has no surface")]
     Nothing,
-    /// A number is beyond what can be computed with.
+    /// A number is too large.
     #[error("sphere sweep: it is too large, up to {0:?}")]
     TooLarge(f64),
 }

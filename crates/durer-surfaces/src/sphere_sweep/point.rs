@@ -51,10 +51,10 @@ impl SphereSweep {
     /// along the axis, unless there is another cone on the other side of the tip: the radius changes its
     /// sign, or two pieces meet there.
     ///
-    /// Then no direction leads out of both cones whose opposite leads into one. Rays start from a
-    /// point within, on the axis at a distance `L`, and from one outside, across the axis at `L`. They
-    /// are `L sine` and `L cosine` from the cone, eight times as far as starts are off by. Their sides
-    /// are decided exactly.
+    /// Then there is no direction that leads out of both cones while its opposite leads into one.
+    /// Rays start from a point within, on the axis at a distance `L`, and from one outside, across
+    /// the axis at `L`. Their distances from the cone are `L sine` and `L cosine`, eight times the
+    /// error of starts. Their sides are decided exactly.
     #[cold]
     #[inline(never)]
     fn past_tip<const K: usize, const M: usize>(

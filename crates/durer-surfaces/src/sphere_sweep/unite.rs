@@ -1,5 +1,5 @@
 //! All crossings of a ray with a sweep: the runs of all pieces that it meets, joined where a run
-//! goes on from one piece to the next, and united.
+//! continues from one piece to the next, and united.
 
 use super::line::{Doubt, Line, MOST, PieceLine, RunEnd, Widths};
 use super::spline::Basis;
@@ -13,8 +13,8 @@ use durer_math::efloat::Word;
 use durer_math::{Isa, RaySide, U};
 use durer_roots::quadratic::NARROW;
 
-/// Pieces farther than this from the ray's range, in units of the sweep, are not looked at: far
-/// more than any bracket is wide.
+/// Pieces farther than this from the ray's range, in units of the sweep, are skipped. Any bracket
+/// is far narrower.
 const ROOM: f64 = 1.0 / 1024.0;
 
 /// An interval of the line inside the solid: one run, or several that overlap.
@@ -22,12 +22,12 @@ const ROOM: f64 = 1.0 / 1024.0;
 pub(super) struct Span {
     pub(super) from: RunEnd,
     pub(super) to: RunEnd,
-    /// It is no interval, but one point.
+    /// Whether it is a single point.
     pub(super) touches: bool,
 }
 
 impl Span {
-    /// Whether it begins before the other one ends, if that is certain.
+    /// Whether it begins before the other one ends; `None` if uncertain.
     #[inline(always)]
     fn begins_before(&self, other: &Self) -> Option<bool> {
         if self.from.hi <= other.to.lo {
@@ -60,7 +60,7 @@ fn joined(a: &RunEnd, b: &RunEnd, sign: f64) -> RunEnd {
     RunEnd { s: s.max(lo).min(hi), lo, hi, ball: first.ball }
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 struct Lists {
     nodes: Vec<u32>,
@@ -156,7 +156,7 @@ fn stretches<T: Word, const K: usize, const M: usize>(
     Ok(found)
 }
 
-/// The same in double-double.
+/// The runs of a piece that the line meets, in double-double.
 #[cold]
 #[inline(never)]
 fn stretches_in_double_double<const K: usize, const M: usize>(
@@ -176,12 +176,12 @@ fn stretches_in_double_double<const K: usize, const M: usize>(
 /// The precision in which runs are computed first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Precision {
-    /// In f64; in double-double for the pieces for which that is not enough.
+    /// In f64, and in double-double for the pieces for which f64 is not enough.
     Double,
     DoubleDouble,
 }
 
-/// The spans of the line, ascending, which do not touch each other.
+/// Finds the spans of the line, ascending and disjoint.
 #[inline(always)]
 fn unite<const K: usize, const M: usize>(
     sweep: &SphereSweep,
@@ -230,8 +230,8 @@ fn merge(spans: &mut Vec<Span>) -> Result<(), Doubt> {
     let mut kept = 0;
     for i in 1..spans.len() {
         let (last, next) = (spans[kept], spans[i]);
-        // They meet if each begins before the other ends. The first one may begin after the second
-        // only by less than their brackets are wide.
+        // They meet if each begins before the other ends. The first one may begin after the second,
+        // but only by less than the width of their brackets.
         match (next.begins_before(&last), last.begins_before(&next)) {
             (Some(true), Some(true)) => spans[kept] = last.with(&next),
             (Some(false), Some(true)) => {
@@ -245,7 +245,7 @@ fn merge(spans: &mut Vec<Span>) -> Result<(), Doubt> {
     Ok(())
 }
 
-/// The same with all pieces in double-double, then exactly; whether the spans are certain.
+/// [`unite`] with all pieces in double-double, then exactly. Returns whether the spans are certain.
 #[cold]
 #[inline(never)]
 fn unite_exactly<const K: usize, const M: usize>(
@@ -308,7 +308,7 @@ fn show<const K: usize, const M: usize>(
 /// Whether a crossing whose bracket holds an end of the range lies beyond it. So the crossing is in
 /// exactly one of two ranges that meet there, whatever its bracket.
 ///
-/// The side on which the end is tells, if no other crossing may be nearby.
+/// The side of the surface on which the end lies decides, if no other crossing may be nearby.
 #[cold]
 #[inline(never)]
 fn is_beyond<const K: usize, const M: usize>(
@@ -337,8 +337,8 @@ fn is_beyond<const K: usize, const M: usize>(
             match place(0.0) {
                 Some(Ordering::Less) => return end == End::Max,
                 Some(Ordering::Greater) => return end == End::Min,
-                // An end of the range that is the span's last point within it has the span's other
-                // end beyond itself.
+                // If an end of the range is the only point of the span in the range, the span's
+                // other end is beyond it.
                 Some(Ordering::Equal) => match (end, place(if end == End::Min { 1.0 } else { -1.0 })) {
                     (End::Min, Some(Ordering::Greater)) => return sign < 0,
                     (End::Max, Some(Ordering::Less)) => return sign > 0,
@@ -348,10 +348,11 @@ fn is_beyond<const K: usize, const M: usize>(
             }
         }
         if sign == 0 {
-            // Nothing proves that a touch is beyond.
+            // A touch is never proven to be beyond.
             return false;
         }
-        // Also of a ray that leaves the surface: next to a double tip it may have been told wrongly.
+        // Also for a ray that leaves the surface: next to a double tip its recorded side may be
+        // wrong.
         let side = sweep.side_at(basis, at, end);
         let is_out = match (side, end, at.spawned()) {
             (Some(Ordering::Greater), ..) => true,

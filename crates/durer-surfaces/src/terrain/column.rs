@@ -1,7 +1,7 @@
-//! The solid under a sheet: its walls, and what is inside.
+//! The solid under a sheet: its walls and its inside.
 //!
 //! A wall is a plane over a border of the unit square. Below each edge `p q` of the sheet's border
-//! it has a piece without end downward, between the verticals through `p` and `q`:
+//! it has a piece, unbounded downward, between the verticals through `p` and `q`:
 //!
 //! ```text
 //!        p ──── q           The three lines, p q and both verticals, are passed by a ray by the
@@ -222,7 +222,7 @@ impl<H: Heights> Sheet<H> {
         }
     }
 
-    /// Whether a ray starts inside, as far as rounding tells.
+    /// Whether a ray starts inside, within rounding.
     #[cold]
     fn starts_inside(&self, ray: &LocalRay<'_>) -> bool {
         let start = ray.point_at_start();
@@ -260,8 +260,8 @@ impl<H: Heights> Sheet<H> {
         point
     }
 
-    /// The side of the solid on which a point lies, where f64 tells: outside of the column, above or
-    /// below all heights of its cells.
+    /// The side of the solid on which a point lies, if f64 decides it: outside of the column, above
+    /// or below all heights of its cells.
     fn column_side_in_doubles(&self, point: &LocalPoint<'_>) -> Option<Side> {
         let (p, e) = (point.p, point.p_err);
         let within = [strictly_within(p.x, e.x), strictly_within(p.z, e.z)];

@@ -15,7 +15,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// One of its quarters: bit 0 tells the half along x, bit 1 that along z.
+    /// One of its quarters: bit 0 selects the half along x, bit 1 that along z.
     #[inline(always)]
     #[must_use]
     pub fn quarter(self, k: usize) -> Self {
@@ -41,8 +41,8 @@ pub trait Heights: Clone + Debug + Send + Sync {
     /// The block that holds all cells.
     fn whole(&self) -> (Block, Self::Data);
 
-    /// What is known of the quarters of a block above level 0; quarters outside the grid are not
-    /// looked at.
+    /// The data of the quarters of a block above level 0; those of quarters outside the grid are
+    /// not used.
     fn quarters(&self, block: Block, data: Self::Data) -> [Self::Data; 4];
 
     /// Numbers between which all heights of a block lie.

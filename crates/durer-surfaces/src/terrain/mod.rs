@@ -23,7 +23,7 @@
 //! exactly one of the triangles there. The triangles are never stored.
 //!
 //! By itself it is an open sheet, which rays meet from both sides. As a [solid](Sheet::solid) it is
-//! all that lies under the sheet, without end downward, closed by four walls.
+//! everything below the sheet, unbounded downward, closed by four walls.
 
 mod column;
 mod fractal;
@@ -63,7 +63,7 @@ pub struct Sheet<H> {
     range: [f64; 2],
     water_level: f64,
     is_smooth: bool,
-    /// Where normals are interpolated, if it is not the sheet's own space.
+    /// The map to the space in which normals are interpolated, if it is not the sheet's own.
     shown_in: Option<Affine>,
     is_solid: bool,
 }
@@ -91,7 +91,7 @@ impl<H: Heights> Sheet<H> {
         self
     }
 
-    /// Interpolates normals over the cells, for shading: hits stay where they are.
+    /// Interpolates normals over the cells, for shading; hits do not change.
     #[must_use]
     pub fn smooth(mut self) -> Self {
         self.is_smooth = true;
@@ -99,15 +99,15 @@ impl<H: Heights> Sheet<H> {
     }
 
     /// Interpolates normals in the space to which the sheet is mapped: there the normals of grid
-    /// points count the same (a fact of the scene language).
+    /// points have equal weights (a fact of the scene language).
     #[must_use]
     pub fn shown_in(mut self, map: Option<&Affine>) -> Self {
         self.shown_in = map.copied();
         self
     }
 
-    /// All that lies under the sheet, without end downward, closed by walls over the borders of the
-    /// unit square. No part is left out below a water level.
+    /// Converts the sheet to the solid below it, unbounded downward, closed by walls over the
+    /// borders of the unit square. No part is left out below a water level.
     #[must_use]
     pub fn solid(mut self) -> Self {
         self.is_solid = true;
@@ -192,7 +192,7 @@ impl<H: Heights> Sheet<H> {
             let probe = Self::probe(ray, facet);
             let plane = facet::plane(&probe, facet);
             let depth = Depth { plane: &plane, level };
-            // A side that is not known (inexact rays only) is dry.
+            // An unknown side (of inexact rays only) counts as dry.
             probe.sign(&depth).is_none_or(Ordering::is_ge)
         }
     }
@@ -212,8 +212,8 @@ impl<H: Heights> Sheet<H> {
         here.then(|| probe.root(&crossing, face, tag))
     }
 
-    /// Whether a crossing may matter: not where the ray was spawned, not certainly outside its range
-    /// or the sink's.
+    /// Whether a crossing may matter: it is not where the ray was spawned, and not certainly
+    /// outside the ray's or the sink's range.
     #[inline(always)]
     fn may_count(&self, probe: &Probe<'_>, crossing: &Crossing, face: u32, range: (f64, f64)) -> bool {
         let is_left = probe.ray.local().source_face == face && probe.leaves(crossing);

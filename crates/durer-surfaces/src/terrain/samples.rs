@@ -36,7 +36,7 @@ pub enum HeightFieldError {
         /// The number of rows.
         rows: usize,
     },
-    /// There are more samples than can be counted.
+    /// The number of samples is too large.
     #[error("height field: {columns} x {rows} samples are too many")]
     TooMany {
         /// The number of columns.
@@ -73,7 +73,7 @@ pub struct Samples {
     columns: u32,
     rows: u32,
     table: Table,
-    /// Those of level 1 first.
+    /// Bounds by level, level 1 first.
     levels: Arc<[Level]>,
 }
 
@@ -120,7 +120,7 @@ impl Sheet<Samples> {
         Ok(Self::of(Samples::new([columns, rows], Table::Numbers(heights.into()))))
     }
 
-    /// As [`new`](Self::new), for heights in units of `2^-16`, as pictures have them.
+    /// [`new`](Self::new) for heights in units of `2^-16`, as in pictures.
     pub fn from_words([columns, rows]: [usize; 2], heights: Vec<u16>) -> Result<Self, HeightFieldError> {
         check([columns, rows], heights.len())?;
         Ok(Self::of(Samples::new([columns, rows], Table::Words(heights.into()))))

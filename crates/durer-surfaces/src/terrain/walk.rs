@@ -7,11 +7,11 @@
 //!     E = o_err + S d_err + 16 u (R + |o| + 2 S)
 //! ```
 //!
-//! per axis, where `R` is the distance of the box's corners from its centre. The last term pays for
+//! per axis, where `R` is the distance of the box's corners from its centre. The last term covers
 //! roundings: those of a border's coordinate are below `3.5 u <= 7 u R` (its quotient, its product
-//! with the width of a cell, its difference to the centre), a parameter at which it is met adds `4 u`
-//! of `R + |o|`, a height `2 u` of `|o| + 2 S`. So every interval is widened by `E`, and no cell that
-//! holds a crossing is left out.
+//! with the width of a cell, its difference to the centre), a parameter at which it is met adds
+//! `4 u` of `R + |o|`, a height `2 u` of `|o| + 2 S`. So every interval is widened by `E`, and no
+//! cell that holds a crossing is left out.
 
 use super::heights::Block;
 use crate::{CentredRay, Root, Sink};
@@ -19,10 +19,11 @@ use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use durer_math::{Aabb, Point3, U, Vec3};
 
-/// Three of each level but the last wait; levels go up to 16, and the first has one entry.
+/// The size of the stack: three entries for each level but the last; levels go up to 16, and the
+/// first has one entry.
 const DEEP: usize = 64;
 
-/// A block that waits, with the range of `s` in which the ray may be over it.
+/// A block on the stack, with the range of `s` in which the ray may be over it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry<D> {
     pub(super) block: Block,
@@ -30,7 +31,7 @@ pub(super) struct Entry<D> {
     pub(super) span: (f64, f64),
 }
 
-/// Blocks that wait; the nearest one is on top.
+/// The blocks still to visit; the nearest one is on top.
 pub(super) type Stack<D> = ArrayVec<Entry<D>, DEEP>;
 
 /// The re-centred ray and its error while it is in the sheet's box.
@@ -39,11 +40,11 @@ pub(super) struct Line<'a> {
     bounds: Aabb,
     o: Vec3,
     d: Vec3,
-    /// One over the direction; huge where that is zero.
+    /// The inverse of the direction; huge where that is zero.
     inverse: Vec3,
     /// `E`.
     error: Vec3,
-    /// `E` over the direction: that of a parameter.
+    /// `E` divided by the direction: the error of a parameter.
     slack: Vec3,
 }
 
@@ -61,7 +62,7 @@ impl<'a> Line<'a> {
         let error = ray.o_err + ray.d_err * farthest + Vec3::new(rounding, rounding, rounding);
         // NaN is no bound.
         let error = error.map(|e| if e < f64::MAX { e } else { f64::MAX });
-        // A parallel ray passes a border nowhere, or everywhere: `E` decides which.
+        // A parallel ray is at a border nowhere or everywhere: `E` decides which.
         let inverse = ray.d.map(|d| if d == 0.0 { f64::MAX } else { (1.0 / d).clamp(-f64::MAX, f64::MAX) });
         let slack =
             Vec3::new(error.x * inverse.x.abs(), error.y * inverse.y.abs(), error.z * inverse.z.abs());
@@ -88,7 +89,7 @@ impl<'a> Line<'a> {
         self.ray.window(range).1
     }
 
-    /// Bounds of the parameters at which the ray may be at a coordinate, seen from the centre.
+    /// Bounds of the parameters at which the ray may be at a coordinate relative to the centre.
     #[inline(always)]
     fn meet(&self, axis: usize, at: f64) -> (f64, f64) {
         let (s, slack) = ((at - self.o[axis]) * self.inverse[axis], self.slack[axis]);
@@ -135,7 +136,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// Whether the ray may be between two heights in a range of `s`.
+    /// Whether the ray may be between two heights somewhere in a range of `s`.
     #[inline(always)]
     pub(super) fn passes(&self, [low, high]: [f64; 2], (near, far): (f64, f64)) -> bool {
         let at = |s: f64| s.mul_add(self.d.y, self.o.y);
@@ -144,10 +145,10 @@ impl<'a> Line<'a> {
         !(a.min(b) - self.error.y > high - centre || a.max(b) + self.error.y < low - centre)
     }
 
-    /// The place where the ray is at `at` on an axis. `None` if it has no bounds.
+    /// The place of the ray where its coordinate along an axis is `at`; `None` if it has no bounds.
     #[inline(always)]
     pub(super) fn place(&self, axis: usize, at: f64) -> Option<Place> {
-        // Not within the box: `S` is that of the place itself.
+        // The place need not be in the box, so it has an `S` of its own.
         let at = at - self.ray.centre[axis];
         let d = self.d[axis];
         if !(self.ray.d_err[axis] <= 0.25 * d.abs() && d != 0.0) {
@@ -175,7 +176,7 @@ impl<'a> Line<'a> {
         place.s.1 >= own.0.max(asked.0) && place.s.0 <= own.1.min(asked.1)
     }
 
-    /// Bounds of the coordinate of a place along `axis`, seen from the centre.
+    /// Bounds of the coordinate of a place along `axis`, relative to the centre.
     #[inline(always)]
     fn coordinate(&self, place: &Place, axis: usize) -> (f64, f64) {
         let (a, b) =
@@ -192,8 +193,8 @@ impl<'a> Line<'a> {
         (low + centre, high + centre)
     }
 
-    /// Whether a place is certainly above a height. The height seen from the centre is rounded by `u`
-    /// of itself, which is less than `E` where the place is about as high.
+    /// Whether a place is certainly above a height. The height relative to the centre has a
+    /// relative rounding of `u`, less than `E` where the place is about as high.
     #[inline(always)]
     pub(super) fn is_above(&self, place: &Place, height: f64) -> bool {
         self.coordinate(place, 1).0 > height - self.ray.centre.y
@@ -204,11 +205,11 @@ impl<'a> Line<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     s: (f64, f64),
-    /// No parameter in it is larger.
+    /// A bound on the magnitude of its parameters.
     reach: f64,
 }
 
-/// Crossings that were found and must wait until none before them can be found any more.
+/// Crossings that are kept until no earlier one can be found any more.
 pub(super) struct Queue {
     few: ArrayVec<Found, 8>,
     many: Vec<Found>,
@@ -219,11 +220,11 @@ pub(super) struct Queue {
     sign: i8,
 }
 
-/// A crossing that waits.
+/// A crossing in the queue.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) root: Root,
-    /// Crossings at an `s` beyond this come later.
+    /// Crossings found at an `s` beyond this come later.
     until: f64,
 }
 
@@ -258,8 +259,8 @@ impl Queue {
         self.first < next
     }
 
-    /// Passes on the crossings that come before all others from `next` on, ascending; `order` puts
-    /// them in turn behind one of a sign.
+    /// Passes on the crossings that come before all others from `next` on, ascending; `order`
+    /// arranges them so that signs alternate after a given one.
     #[inline(always)]
     pub(super) fn pour<S: Sink + ?Sized>(
         &mut self,
@@ -272,7 +273,7 @@ impl Queue {
             return ControlFlow::Continue(());
         }
         order(waiting, self.sign);
-        // Of those in turn, as many as come before `next`.
+        // As many of those that alternate as come before `next`.
         let ready = waiting.iter().take_while(|found| found.until < next || next == f64::INFINITY).count();
         // A crossing is not beyond the upper end of any later one, and not before an earlier one.
         // Both hold for the exact parameters, so each `t` stays in its bracket.

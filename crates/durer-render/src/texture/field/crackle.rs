@@ -22,7 +22,7 @@ pub(crate) struct Points {
     fourth: f64,
     solid: bool,
     old: bool,
-    /// The noise of what all points with the same nearest point share.
+    /// The noise value that all points with the same nearest point share.
     grains: Grains,
 }
 
@@ -111,7 +111,7 @@ impl Points {
         (nearest, point)
     }
 
-    /// Points that are only asked for the nearest.
+    /// A pattern for finding only the nearest point.
     pub(super) fn of_cells() -> Self {
         let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false, old: false };
         Self::new(&crackle)

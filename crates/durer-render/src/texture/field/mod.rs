@@ -170,14 +170,14 @@ impl Field {
     }
 }
 
-/// The fractional part of a number above 1; another one as it is. A frequency shows the difference
-/// (a fact of the language).
+/// The fractional part of a number above 1; other numbers are unchanged. With a frequency this
+/// makes a difference (a fact of the language).
 #[inline(always)]
 fn part_above_1(v: f64) -> f64 {
     if v > 1.0 { v - floor(v) } else { v }
 }
 
-/// As [`part_above_1`].
+/// [`part_above_1`] for eight numbers.
 #[inline(always)]
 fn parts_above_1(v: F8) -> F8 {
     (F8::ONE).lt(v).select(v - floor_lanes(v), v)

@@ -25,9 +25,9 @@ struct Centre {
     slope: f64,
 }
 
-/// Of waves, all heights times the frequency. With it the spread of the value is that of POV-Ray's.
+/// For waves, each height times the frequency. With it the spread of the values equals POV-Ray's.
 const HEIGHT: f64 = 0.017_94;
-/// The same for slopes.
+/// For waves, each slope times the frequency.
 const SLOPE: f64 = 0.084_6;
 
 /// The heights and slopes of POV-Ray's waves, times the frequency, and the state of the linear

@@ -181,8 +181,8 @@ impl SinkKernel for Fields {
         to.doubt(memory.open, F8::ZERO);
     }
 
-    /// Points at `t`, known within `e`, that are certainly inside, and those that are certainly
-    /// outside, as bit masks; for rays relative to the filter's centre.
+    /// Bit masks of the points at `t` that are certainly inside, and of those certainly outside;
+    /// `t` is known within `e`, and rays are relative to the filter's centre.
     #[inline(never)]
     fn sides(&self, &KernelRays { own, rays, start, .. }: &KernelRays<'_>, (t, e): (F8, F8)) -> (u8, u8) {
         rays.isa.run_in_lanes(

@@ -1,4 +1,4 @@
-//! Bends: a piece of the axis becomes an arc, and what lies beside it goes with it.
+//! Bends: a piece of the axis becomes an arc, and the space around it moves with it.
 //!
 //! ```text
 //!          z ▲                  angle a(z) = (z - from) / R within the stretch, with R = length / angle;
@@ -9,13 +9,13 @@
 //!
 //! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. In polar
 //! coordinates about the centre, with u = R - x and v = z - from, the inverse is x = R - r and z =
-//! from + R a in the bent part, the turn back by the whole angle beyond it. A determinant is no
-//! proof that the map is one to one (it is (R - x) / R however far the bend goes round), angles
-//! are: the bent part of a solid with x < R takes those from 0 to the whole angle, each rigid part
-//! those between it and an arcus tangens. As long as all of them are less than a turn together,
-//! they are told apart: the polar angle is taken from half a turn before their middle to half a
-//! turn behind it. Where it jumps nothing of the solid is, but bounds of the inverse would be those
-//! of everything: in a wedge about that half-plane the formula is replaced by a positive number.
+//! from + R a in the bent part, the turn back by the whole angle beyond it. A determinant does not
+//! prove that the map is one to one (it is (R - x) / R however far the bend goes round), but angles
+//! do: the bent part of a solid with x < R covers those from 0 to the whole angle, each rigid part
+//! those between it and an arc tangent. As long as all of them together are less than a turn, they
+//! are distinct: the polar angle is taken from half a turn before their middle to half a turn
+//! behind it. No part of the solid is where it jumps, but bounds of the inverse would be useless
+//! there: in a wedge about that half-plane the formula is replaced by a positive number.
 
 use super::{DeformError, Map, Stretch, columns, direction};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};
@@ -23,13 +23,13 @@ use durer_formula::Function;
 use durer_formula::{FormulaError, NodeId};
 use durer_math::{Aabb, Affine, Interval, Vec3, elementary};
 
-/// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge,
-/// near -1, is told from it by half of this squared.
+/// The least angle between the ends of a bent solid, across the gap: the cosine of the gap's edge
+/// differs from -1 by about half of this squared.
 const LEAST_GAP: f64 = 1.0 / (1 << 20) as f64;
 
 /// The least sine of the angle between a bend's axis and direction. Both are rounded unit vectors,
-/// and what the direction has across the axis is wrong by some `8 U`: with this it is across it
-/// within a millionth.
+/// so the direction's component across the axis has an error of about `8 U`: with this sine it is
+/// perpendicular within a millionth.
 const LEAST_SINE: f64 = 1.0 / (1 << 30) as f64;
 
 /// A bend towards x.
@@ -37,18 +37,18 @@ pub(super) struct Bend {
     turn: Interval,
     stretch: Stretch,
     radius: Interval,
-    /// The middle of the polar angles that there are.
+    /// The middle of the solid's polar angles.
     middle: f64,
-    /// The cosine of an angle from there, beyond which nothing is.
+    /// The cosine of the angle from `middle` beyond which no part of the solid is.
     edge: f64,
-    /// Whether anything lies below, within and above the stretch.
+    /// Whether parts of the solid lie below, within and above the stretch.
     below: bool,
     between: bool,
     above: bool,
 }
 
-/// The frame with the axis for z and the direction for x: exact where both are coordinate axes,
-/// else as f64 has it.
+/// The frame with the axis for z and the direction for x: exact if both are coordinate axes, else
+/// rounded to f64.
 pub(super) fn frame(axis: Vec3, toward: Vec3) -> Result<Affine, DeformError> {
     let z = direction(axis).ok_or(DeformError::Axis { warp: "bend", axis })?;
     let unit = direction(toward).ok_or(DeformError::Toward(toward))?;

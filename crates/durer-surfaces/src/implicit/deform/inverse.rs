@@ -1,13 +1,13 @@
 //! Maps whose inverse is given by formulas.
 //!
-//! That W (for a point of the deformed solid, where it was) never takes two points of a box to one
-//! is shown as follows. Between any two points p and q of the box, which is convex, W(p) - W(q) = M
-//! (p - q) by the mean value theorem, row by row, with a matrix M whose entries lie between bounds
-//! of W's slopes over the box. If no such matrix is singular, the two images differ. The
-//! determinant is linear in each entry, so that its extremes over all matrices between the bounds
-//! are among those at the 2^9 corners, and these are worked out (regularity of interval matrices:
-//! A. Neumaier, *Interval Methods for Systems of Equations*, Cambridge 1990). A determinant that is
-//! positive at every *point* would not do: a map may go round.
+//! Let W map a point of the deformed solid to its undeformed place. The following proves that W
+//! never maps two points of a box to one. Between any two points p and q of the box, which is
+//! convex, W(p) - W(q) = M (p - q) by the mean value theorem, row by row, with a matrix M whose
+//! entries lie between bounds of W's slopes over the box. If no such matrix is singular, the two
+//! images differ. The determinant is linear in each entry, so its extremes over all matrices
+//! between the bounds are at some of the 2^9 corners, which are all computed (regularity of
+//! interval matrices: A. Neumaier, *Interval Methods for Systems of Equations*, Cambridge 1990). A
+//! positive determinant at every *point* would not suffice: a map may go round.
 
 use super::DeformError;
 use crate::implicit::level_set::{LevelSet, boxes, primitives};
@@ -15,13 +15,13 @@ use durer_formula::Dual;
 use durer_formula::{Formula, Tape};
 use durer_math::{Aabb, Interval, Point3};
 
-/// Into so many pieces along each axis the box is divided for the bounds of the slopes.
+/// The number of pieces along each axis into which the box is divided to bound the slopes.
 const PIECES: usize = 16;
 
 /// A matrix of bounds.
 type Bounds = [[Interval; 3]; 3];
 
-/// The part in `within` of the solid whose points come from those of `solid`.
+/// The part in `within` of the solid whose inverse image is `solid`.
 pub(super) fn deformed(
     solid: &LevelSet,
     functions: &[Formula; 3],

@@ -1,14 +1,14 @@
-//! Free-form deformation: what is in a box moves with a lattice of control points.
+//! Free-form deformation: the content of a box moves with a lattice of control points.
 //!
 //! ```text
 //!   D(p) = p + sum of B_i(s) B_j(t) B_k(r) M_ijk,       (s, t, r) = (p - min) / (max - min)
 //! ```
 //!
-//! `B` are Bernstein polynomials and `M_ijk` says by how much the control point `(i, j, k)` moves
-//! from its place in the even lattice. T. W. Sederberg, S. R. Parry, "Free-form deformation of solid
-//! geometric models", *SIGGRAPH* 1986, 151-160. Beyond the box `(s, t, r)` stays at its border: a
-//! point moves as the nearest point of the box does, so the map has no jump, and it leaves alone
-//! what is beyond a side whose points do not move.
+//! `B` are Bernstein polynomials, and `M_ijk` is the displacement of the control point `(i, j, k)`
+//! from its place in the regular lattice. T. W. Sederberg, S. R. Parry, "Free-form deformation of
+//! solid geometric models", *SIGGRAPH* 1986, 151-160. Outside the box `(s, t, r)` is clamped to its
+//! border: a point moves like the nearest point of the box, so the map is continuous, and points
+//! beyond a side whose control points do not move stay in place.
 
 use super::DeformError;
 use crate::implicit::level_set::expr::ExprBuilder;
@@ -19,7 +19,7 @@ use durer_roots::bernstein::binomial;
 /// The most points along an axis.
 const MOST: usize = 8;
 
-/// A box and how far its control points move.
+/// A box and the displacements of its control points.
 ///
 /// ```
 /// use durer_math::{Aabb, Point3, Vec3};
@@ -42,7 +42,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a box with so many points along each axis, all at rest.
+    /// The lattice of a box with these numbers of points along the axes, without displacements.
     pub fn new(bounds: Aabb, size: [usize; 3]) -> Result<Self, DeformError> {
         let is_wide = |i: usize| bounds.min[i] < bounds.max[i] && (bounds.max[i] - bounds.min[i]).is_finite();
         if !(0..3).all(is_wide) {
@@ -54,7 +54,7 @@ impl Lattice {
         Ok(Self { bounds, size, moves: vec![Vec3::ZERO; size.iter().product()] })
     }
 
-    /// Moves a control point, besides what it has moved before. Points count from 0.
+    /// Adds to the displacement of a control point. Indices start at 0.
     pub fn shift(&mut self, point: [usize; 3], by: Vec3) -> Result<(), DeformError> {
         let Self { size, .. } = *self;
         if (0..3).any(|i| point[i] >= size[i]) {
@@ -69,7 +69,7 @@ impl Lattice {
         Ok(())
     }
 
-    /// The box in which the control points stand at first.
+    /// The box of the undisplaced control points.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -79,7 +79,7 @@ impl Lattice {
         self.size
     }
 
-    /// Writes down the place to which a point moves.
+    /// Appends the image of a point to the formula.
     pub(super) fn applied(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError> {
         let mut basis = [vec![], vec![], vec![]];
         for i in 0..3 {

@@ -5,15 +5,14 @@
 //! ```
 //!
 //! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. The inverse is
-//! written before the solid's own formula, and what rays meet is an
-//! [`Isosurface`](super::Isosurface): no curve is traced through the undeformed space (A. H. Barr,
-//! "Ray tracing deformed surfaces", SIGGRAPH 1986, integrates one), a ray stays straight and the
-//! formula is deformed, so that each root has its certified bracket.
+//! composed with the solid's own formula, and the result is an [`Isosurface`](super::Isosurface):
+//! no curve is traced through the undeformed space (A. H. Barr, "Ray tracing deformed surfaces",
+//! SIGGRAPH 1986, integrates one), a ray stays straight and the formula is deformed, so that each
+//! root has its certified bracket.
 //!
-//! A map that sends two points of the solid to one has no inverse there. Twists never do, tapers as
-//! long as they do not shrink to nothing, bends as long as the solid stays on its side of the
-//! centre and does not come round to itself; of other maps it has to be proven on a box
-//! ([`Warp::Inverse`]).
+//! A map that sends two points of the solid to one has no inverse there. Twists always have one,
+//! tapers if their factor stays positive, bends if the solid stays on its side of the centre and
+//! does not come round to itself. For other maps it must be proven on a box ([`Warp::Inverse`]).
 
 mod bend;
 mod inverse;
@@ -32,9 +31,9 @@ use turn::{Taper, Twist};
 pub use lattice::Lattice;
 pub(crate) use lattice::bernstein;
 
-/// A map of space. The first three act about an axis through the origin, along which heights are
-/// measured, between two of them: below the lower one nothing moves, and above the upper one all
-/// moves as it does there.
+/// A map of space. The first three act about an axis through the origin, between two heights along
+/// it: below the lower one nothing moves, and above the upper one everything moves as it does at
+/// the upper one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warp {
     /// Turns about the axis, by an angle that grows evenly with the height, counter-clockwise as
@@ -42,14 +41,14 @@ pub enum Warp {
     Twist {
         /// The axis, of any length but zero.
         axis: Vec3,
-        /// By how much it turns from one height to the other.
+        /// The angle of the turn from one height to the other.
         degrees: f64,
         /// The lower height.
         from: f64,
         /// The upper height.
         to: f64,
     },
-    /// Scales across the axis, by a factor that goes evenly from 1 to `factor`.
+    /// Scales across the axis, by a factor that changes linearly from 1 to `factor`.
     Taper {
         /// The axis, of any length but zero.
         axis: Vec3,
@@ -60,46 +59,46 @@ pub enum Warp {
         /// The upper height.
         to: f64,
     },
-    /// Makes an arc of the piece of the axis between the heights, of its length, and moves with it
-    /// what lies beside it.
+    /// Bends the piece of the axis between the heights to an arc of the same length, together with
+    /// the space around it.
     Bend {
         /// The axis, of any length but zero.
         axis: Vec3,
-        /// To which side it bends; what it has along the axis does not matter.
+        /// The side to which it bends; its component along the axis does not matter.
         toward: Vec3,
-        /// By how much it bends from one height to the other.
+        /// The angle of the arc from one height to the other.
         degrees: f64,
         /// The lower height.
         from: f64,
         /// The upper height.
         to: f64,
     },
-    /// The map whose inverse has these coordinates, as far as its images lie in a box. All of the
-    /// solid's image that is not in the box is cut off.
+    /// The map whose inverse is given by functions, restricted to images in a box. The part of the
+    /// solid's image outside the box is cut off.
     Inverse {
-        /// For a point of the deformed solid, where it was.
+        /// The coordinates of the undeformed point, as functions of the deformed point.
         functions: Arc<[Formula; 3]>,
         /// The box, in which they must be shown to have an inverse.
         within: Aabb,
     },
-    /// Moves what is in a box with a lattice of control points. It has no inverse formula, so it
-    /// deforms only surfaces that are given by parameters.
+    /// Moves the content of a box with a lattice of control points. It has no inverse formula, so
+    /// it deforms only parametric surfaces.
     Lattice(Arc<Lattice>),
 }
 
-/// A step on the way of a point.
+/// One step of a deformation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeformStep {
-    /// It is placed by an affine map.
+    /// An affine map.
     Place(Affine),
-    /// It is moved by a warp.
+    /// A warp.
     Warp(Warp),
 }
 
 /// Why a deformed solid cannot exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DeformError {
-    /// The solid has no end.
+    /// The solid is unbounded.
     #[error("deform: this solid has no end; only what a box holds can be deformed so: intersect it with one")]
     Unbounded,
     /// The axis has no direction.
@@ -110,7 +109,7 @@ pub enum DeformError {
         /// The axis.
         axis: Vec3,
     },
-    /// There is nothing between the heights.
+    /// The heights are not finite and ascending.
     #[error("{warp}: it must go from one height to a greater one, got from {from} to {to}")]
     Stretch {
         /// Which warp.
@@ -120,7 +119,7 @@ pub enum DeformError {
         /// The upper height.
         to: f64,
     },
-    /// The angle is no number.
+    /// The angle is infinite or NaN.
     #[error("{warp}: the angle must be finite, got {degrees}")]
     Angle {
         /// Which warp.
@@ -133,7 +132,7 @@ pub enum DeformError {
         "taper: the factor must be finite and greater than 0, got {0}: at 0 all points of a height would be one"
     )]
     Factor(f64),
-    /// A bend's direction is that of its axis.
+    /// A bend's direction is parallel to its axis.
     #[error("bend: the direction must not be that of the axis, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
     Toward(Vec3),
     /// The solid reaches the centre of a bend.
@@ -159,7 +158,7 @@ pub enum DeformError {
         "formula: the functions may jump, be undefined or have no bounded slope near <{}, {}, {}>, so nothing shows that they have an inverse", .0.x, .0.y, .0.z
     )]
     Rough(Point3),
-    /// The functions may send two points to one.
+    /// The functions may map two points to one.
     #[error(
         "formula: the functions may take two points of their box to one: bounds of the determinant of their slopes, each within its own over the box, are {} to {}, and do not exclude 0", .0.lo, .0.hi
     )]
@@ -178,7 +177,7 @@ pub enum DeformError {
         /// How many there are along each axis.
         size: [usize; 3],
     },
-    /// A point of a lattice moves by something that is no number.
+    /// The move of a lattice point is infinite or NaN.
     #[error("lattice: a point must move by finite numbers, got <{}, {}, {}>", .0.x, .0.y, .0.z)]
     LatticeMove(Vec3),
     /// A lattice has no inverse formula.
@@ -186,12 +185,12 @@ pub enum DeformError {
         "lattice: it deforms patches, NURBS and parametric surfaces; a solid of formulas would need its inverse, which has no formula"
     )]
     LatticeInverse,
-    /// Functions are given that take points back.
+    /// A parametric surface is deformed by inverse functions.
     #[error(
         "formula: it says where points came from, so it deforms solids; what is given by parameters needs the map itself: twist, taper, bend or lattice"
     )]
     Forward,
-    /// A parametric surface is not all in its container.
+    /// A deformed parametric surface is not completely in its container.
     #[error(
         "deform: its container must hold all of a parametric surface that is deformed, since the container is not: enlarge its `contained_by`"
     )]
@@ -212,19 +211,19 @@ pub enum DeformError {
     /// The patches of a sewn surface no longer fit.
     #[error("deform: {0}")]
     Sewn(#[from] crate::SewnError),
-    /// The functions take something else than a point.
+    /// A function takes another number of arguments than three.
     #[error("formula: its functions must have three arguments, one has {0}")]
     Arguments(u32),
-    /// The box is none.
+    /// The box is empty or not finite.
     #[error("formula: its box must be finite and not flat, from <{}, {}, {}> to <{}, {}, {}>", .0.min.x, .0.min.y, .0.min.z, .0.max.x, .0.max.y, .0.max.z)]
     Within(Aabb),
     /// It has too many steps.
     #[error("deform: {0}")]
     Formula(#[from] FormulaError),
-    /// There is no such frame.
+    /// The frame is singular or not finite.
     #[error("deform: {0}")]
     Frame(#[from] AffineError),
-    /// There is no such surface.
+    /// The resulting isosurface cannot exist.
     #[error("deform: {0}")]
     Surface(#[from] IsosurfaceError),
 }
@@ -237,7 +236,7 @@ struct Stretch {
 }
 
 impl LevelSet {
-    /// The solid that a map makes of this one.
+    /// The solid deformed by a warp.
     pub fn deformed(&self, warp: &Warp) -> Result<Self, DeformError> {
         let bounded = self.bounds().is_bounded() || self.bounds().is_empty();
         if !bounded && !matches!(warp, Warp::Inverse { .. }) {
@@ -302,7 +301,7 @@ impl LevelSet {
 }
 
 impl Warp {
-    /// Writes down the place to which a point moves.
+    /// Appends the image of a point to the formula.
     pub(crate) fn applied(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], DeformError> {
         match *self {
             Self::Twist { axis, degrees, from, to } => {
@@ -324,7 +323,7 @@ impl Warp {
                 if degrees == 0.0 {
                     return Ok(p);
                 }
-                // A surface may come round to itself, so nothing is asked of where it is.
+                // A surface may come round to itself, so its place is not checked.
                 moved(pen, p, &frame, &Bend::new(turn, stretch, Aabb::EMPTY)?)
             }
             Self::Inverse { .. } => Err(DeformError::Forward),
@@ -346,16 +345,16 @@ fn moved(
 
 /// A warp in its own frame, with the z axis for its axis.
 trait Map {
-    /// Writes down the place to which a point moves.
+    /// Appends the image of a point to the formula.
     fn applied(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
 
     /// Bounds of the images of a box's points.
     fn image(&self, p: [Interval; 3]) -> [Interval; 3];
 
-    /// Writes down the inverse.
+    /// Appends the inverse image of a point to the formula.
     fn undone(&self, pen: &mut ExprBuilder, p: [NodeId; 3]) -> Result<[NodeId; 3], FormulaError>;
 
-    /// Writes down a number that is negative only where nothing of the solid is.
+    /// Appends a number that is negative only where no part of the solid is.
     fn nothing(&self, _: &mut ExprBuilder, _: [NodeId; 3]) -> Result<Option<NodeId>, FormulaError> {
         Ok(None)
     }
@@ -375,7 +374,7 @@ impl Stretch {
     }
 }
 
-/// An angle, in radians.
+/// Converts an angle to radians.
 fn angle(warp: &'static str, degrees: f64) -> Result<Interval, DeformError> {
     if degrees.is_finite() {
         Ok(Interval::from(degrees).to_radians())
@@ -384,8 +383,8 @@ fn angle(warp: &'static str, degrees: f64) -> Result<Interval, DeformError> {
     }
 }
 
-/// A right-handed frame with this axis for z: exact if it is one of the coordinate axes, else as
-/// f64 has it.
+/// A right-handed frame with this axis for z: exact if it is one of the coordinate axes, else
+/// rounded to f64.
 fn frame(warp: &'static str, axis: Vec3) -> Result<Affine, DeformError> {
     let z = direction(axis).ok_or(DeformError::Axis { warp, axis })?;
     let along = (0..3).find(|&i| z[i].abs() == 1.0);

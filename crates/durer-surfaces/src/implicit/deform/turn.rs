@@ -1,4 +1,5 @@
-//! Twists and tapers: heights stay, and each height turns or scales by its own measure.
+//! Twists and tapers: heights do not change, and each height is turned or scaled by an amount of
+//! its own.
 //!
 //! ```text
 //!   twist: (x, y) -> R(a(z)) (x, y),  inverse R(-a(z));   a: 0 below, all above, linear between
@@ -6,8 +7,8 @@
 //! ```
 //!
 //! A. H. Barr, "Global and local deformations of solid primitives", SIGGRAPH 1984. Both are one to
-//! one: what they do to a height depends on the height alone, which they keep, and has an inverse
-//! there, since s > 0.
+//! one: the map within a height depends on the height alone, which does not change, and it has an
+//! inverse, since s > 0.
 
 use super::{Map, Stretch};
 use crate::implicit::level_set::expr::{ExprBuilder, Step};

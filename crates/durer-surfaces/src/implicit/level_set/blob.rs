@@ -19,8 +19,8 @@ fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<Nod
         let scale = b.push(Op::Div(one, radius2))?;
         return b.push(Op::Mul(square, scale));
     }
-    // With u from one end to the other and h = w . u, the point is |w x u| / |u| beside the axis,
-    // and beyond its ends by what -h or h - u^2 says, times 1 / |u|. Beside and beyond share no
+    // With u from one end to the other and h = w . u, the point's distance from the axis is |w x u|
+    // / |u|, and its distance beyond an end -h / |u| or (h - u^2) / |u|. The two share no
     // coordinate of the point, so their bounds are tight.
     let start = [from.x, from.y, from.z];
     let mut u = [radius; 3];
@@ -51,7 +51,7 @@ fn distance(part: &BlobComponent, b: &mut Builder, p: [NodeId; 3]) -> Result<Nod
     b.push(Op::Mul(sum, scale))
 }
 
-/// Minus the sum of all fields: less inside, as formulas have it.
+/// Minus the sum of all fields, so that it is smaller inside.
 pub(super) fn missing(components: &[BlobComponent]) -> Result<Formula, FormulaError> {
     let mut b = Builder::new();
     let p = [b.input(0)?, b.input(1)?, b.input(2)?];

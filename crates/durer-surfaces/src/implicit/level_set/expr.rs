@@ -1,4 +1,4 @@
-//! Writing formulas much as one does on paper.
+//! A builder that writes formulas almost as on paper.
 
 use durer_formula::Function;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
@@ -11,7 +11,7 @@ pub(crate) type Step = Result<NodeId, FormulaError>;
 pub(crate) struct ExprBuilder(pub(crate) Builder);
 
 impl ExprBuilder {
-    /// A pen for a formula of a point, and the point.
+    /// A builder for a formula of a point, and the point.
     pub(crate) fn new() -> Result<(Self, [NodeId; 3]), FormulaError> {
         let mut b = Builder::new();
         let p = [b.input(0)?, b.input(1)?, b.input(2)?];
@@ -166,8 +166,8 @@ impl ExprBuilder {
 
     /// The value of a formula at a point.
     ///
-    /// A promise about the whole of a formula ([`Op::Settled`]) says nothing of what it becomes a
-    /// part of, so it is left out.
+    /// A guarantee about a whole formula ([`Op::Settled`]) does not hold for the formula that it
+    /// becomes a part of, so it is left out.
     pub(crate) fn call(&mut self, formula: &Formula, p: [NodeId; 3]) -> Step {
         let mut here: Vec<NodeId> = Vec::with_capacity(formula.ops().len());
         for &op in formula.ops() {

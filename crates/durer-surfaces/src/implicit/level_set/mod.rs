@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A. Ricci, "A constructive geometry for computer graphics", *The Computer Journal* 16(2), 1973.
-//! So every solid of solids is a formula, and on a box where it is known which of two operands
-//! counts, the other is gone from the tape.
+//! So every CSG solid is a formula, and on a box where one of two operands is known to decide, the
+//! tape omits the other.
 
 mod blob;
 pub(crate) mod expr;
@@ -19,8 +19,8 @@ use durer_formula::{Formula, FormulaError, NodeId, Tape};
 use durer_math::{Aabb, Affine, F8, Vec3};
 use expr::ExprBuilder;
 
-/// By so much of its size the container of a level set is larger than what it holds on each side:
-/// the formula's sign is plain there.
+/// The margin of a level set's container on each side, relative to its size: the formula's sign is
+/// certain there.
 const ROOM: f64 = 1.0 / 64.0;
 /// The container of a solid is divided this many times for its bounds.
 const DEPTH: u32 = 4;
@@ -30,7 +30,7 @@ const DEPTH: u32 = 4;
 pub struct LevelSet {
     formula: Formula,
     bounds: Aabb,
-    /// It is made of several, whose faces may coincide.
+    /// Whether it combines several solids, whose faces may coincide.
     combined: bool,
 }
 
@@ -69,17 +69,17 @@ impl LevelSet {
         Ok(Self { formula: pen.done(f), bounds, combined: self.combined })
     }
 
-    /// The same in another formula.
+    /// The solid with another formula and box.
     pub(crate) fn rewritten(&self, formula: Formula, bounds: Aabb) -> Self {
         Self { formula, bounds, ..*self }
     }
 
-    /// The solid that `place` makes of this one.
+    /// The solid placed by a map.
     pub fn placed(&self, place: &Affine) -> Result<Self, FormulaError> {
         self.placed_within(place, place.bounds(&self.bounds))
     }
 
-    /// The same if a tighter box is known.
+    /// [`LevelSet::placed`] with a tighter box.
     pub fn placed_within(&self, place: &Affine, bounds: Aabb) -> Result<Self, FormulaError> {
         if *place == Affine::IDENTITY {
             return Ok(Self { bounds, ..self.clone() });
@@ -87,13 +87,13 @@ impl LevelSet {
         self.pulled_back(bounds, |pen, p| pen.undone(p, place))
     }
 
-    /// The union; it is empty if there is none.
+    /// The union; empty if there are no parts.
     pub fn union(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, part| all.union(part.bounds));
         Self::joined(parts, bounds, 1.0, ExprBuilder::min)
     }
 
-    /// The intersection; it is the whole space if there is none.
+    /// The intersection; the whole space if there are no parts.
     pub fn intersection(parts: &[Self]) -> Result<Self, FormulaError> {
         let bounds = parts.iter().fold(Aabb::UNBOUNDED, |all, part| all.intersection(part.bounds));
         Self::joined(parts, bounds, -1.0, ExprBuilder::max)
@@ -130,7 +130,7 @@ impl LevelSet {
         Ok(Self { formula: pen.done(f), bounds, combined })
     }
 
-    /// Boxes that provably hold all of it, small ones if that helps. Its own box must be bounded.
+    /// Boxes that provably hold all of it, small ones where possible. Its own box must be bounded.
     pub(crate) fn cells(&self) -> Vec<Aabb> {
         let tape = Tape::new(&self.formula);
         let mut cells = vec![self.bounds];

@@ -1,8 +1,8 @@
 //! The formulas of single solids: negative inside.
 //!
-//! Scales are free: a formula may be any positive multiple of a distance or of its square. What is
-//! no number of the text (a length, a difference) is a constant within an interval, so that the set
-//! is that of the text's numbers.
+//! A formula may be any positive multiple of a distance or of its square. A number that is not in
+//! the text (a length, a difference) is a constant within an interval, so the set is that of the
+//! text's numbers.
 
 use super::LevelSet;
 use super::expr::{ExprBuilder, Step};
@@ -88,7 +88,7 @@ pub fn quadric([a, b, c, d, e, f, g, h, i, j]: [f64; 10]) -> Made {
 /// A polynomial of this order: coefficients by falling powers of x, then of y, then of z. The
 /// missing ones are zero.
 ///
-/// In powers, not in Horner's form: bounds of an even power on a box know that it is not negative.
+/// In powers, not in Horner's form: bounds of an even power on a box are never negative.
 pub fn polynomial(order: u32, coefficients: &[f64]) -> Made {
     let (mut pen, p) = ExprBuilder::new()?;
     let mut sum = pen.number(0.0)?;
@@ -151,7 +151,7 @@ pub struct Principal {
     pub linear: [f64; 3],
     /// The constant k.
     pub constant: f64,
-    /// From which z to which.
+    /// The range of z.
     pub extent: Option<[f64; 2]>,
 }
 

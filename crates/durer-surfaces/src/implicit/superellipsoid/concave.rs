@@ -1,5 +1,5 @@
-//! Superellipsoids with dents between all axes, as lanes see them: between two planes through their
-//! axes a ray that is outside meets one at most once.
+//! Packet kernel of superellipsoids with dents between all axes: between two coordinate planes a
+//! ray that starts outside meets one at most once.
 //!
 //! ```text
 //!   N(x, y) = (|x|^p + |y|^p)^(1/p),   G(x, y, z) = (N^q + |z|^q)^(1/q),   1/4 <= p = 2/e <= 1,  1/4 <= q = 2/n <= 1
@@ -7,40 +7,38 @@
 //!   { G <= 1 } is the superellipsoid, within |x| + |y| + |z| <= 1
 //! ```
 //!
-//! For `p <= 1` the power sum `N` of numbers that are not negative is concave (H. Minkowski's
-//! inequality turned round: G. H. Hardy, J. E. Littlewood, G. Pólya, *Inequalities*, 1934, 2.11),
-//! and `G` is the same of `N` and `|z|`, and rises with both. So `g(s) = G(o + s d)` is concave as
-//! long as no coordinate changes its sign. There:
+//! For `p <= 1` the power sum `N` of non-negative numbers is concave (H. Minkowski's reversed
+//! inequality: G. H. Hardy, J. E. Littlewood, G. Pólya, *Inequalities*, 1934, 2.11). `G` is such a
+//! sum of `N` and `|z|`, and rises with both. So `g(s) = G(o + s d)` is concave as long as no
+//! coordinate changes its sign. There:
 //!
 //! - Where `g > 1` at both ends of a stretch, `g > 1` on all of it.
 //! - Where `g > 1` at one end and `g < 1` at the other, there is exactly one crossing.
 //!
-//! So the signs where a ray goes through the three planes `x = 0`, `y = 0`, `z = 0` are all that
-//! has to be known. `G` is as steep as one likes there, but it rises with the size of each
-//! coordinate: it is least in a box of places at the box's corner that is nearest to the origin,
-//! and greatest at the farthest. The box of a place next to a plane holds all places up to where
-//! the exact ray goes through the plane, so that it does not matter on which side of it the place
-//! is.
+//! So it suffices to know the signs where a ray crosses the three planes `x = 0`, `y = 0`, `z = 0`.
+//! The slope of `G` is unbounded there, but `G` rises with the size of each coordinate: in a box of
+//! points it is least at the corner nearest to the origin, and greatest at the farthest. The box of
+//! a point next to a plane holds all points up to the exact ray's crossing with the plane, so the
+//! side of the point does not matter.
 //!
-//! Rays inside are told by the formula.
+//! Rays inside the solid are classified by the formula.
 //!
-//! **The value.** As in `convex/gauge.rs`, with logarithms that err by `8 u` of
-//! themselves and powers by `4 u`. The larger of two numbers is no less than `2^(-1/p)` of `N`,
-//! `2^(-1/q)` of `G`; so `log N` errs by no more than `(16 |a| + 20 / p + |log N|) u`, `log G` by
-//! `(36 / p + 41 / q + 22 |log G|) u`, and `G`, where it is from 1/4 to 4, by
-//! `(25 / p + 29 / q + 36) u` of itself. Where it is beyond these errors are far below what it
-//! differs from 1 by.
+//! **The value.** As in `convex/gauge.rs`, with relative errors of `8 u` in logarithms and `4 u` in
+//! powers. The larger of two numbers is at least `2^(-1/p) N`, or `2^(-1/q) G`. So the error of
+//! `log N` is at most `(16 |a| + 20 / p + |log N|) u`, that of `log G` at most
+//! `(36 / p + 41 / q + 22 |log G|) u`, and the relative error of `G` from 1/4 to 4 at most
+//! `(25 / p + 29 / q + 36) u`. Outside this range the error is far below the difference from 1.
 
 use super::convex::{Gauge, Sample};
 use crate::implicit::Isosurface;
 use crate::packet::{ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, Value8};
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// An octahedron that is larger by this holds the solid with room for all rounding of a line that
-/// is known well enough.
+/// An octahedron enlarged by this holds the solid with a margin for all rounding, for a line whose
+/// error is small enough.
 const ROOM: f64 = 1.0 / 64.0;
-/// So many times as far as a point may be off it counts as a point of a plane between octants. Two
-/// would be enough of where lines go through these by rounded numbers.
+/// A point within this many times its error of a plane between octants counts as on it. Two would
+/// suffice for rounded crossings of lines with these planes.
 const NEAR: f64 = 8.0;
 /// Points with a coordinate of this size are outside.
 const FAR_OUT: f64 = 4.0;
@@ -52,11 +50,11 @@ pub(in crate::implicit) struct Star {
     gauge: Gauge,
     /// Bound on the error of the gauge, relative to it.
     error: f64,
-    /// The same solid, by its formula.
+    /// The solid's formula.
     formula: Isosurface,
 }
 
-/// Where each coordinate of eight places is no more than so large, and no less.
+/// Lower and upper bounds on the magnitude of each coordinate of eight points.
 struct Sizes {
     least: Vec3<F8>,
     most: Vec3<F8>,
@@ -69,8 +67,8 @@ impl Star {
         Self { gauge: gauge.clone(), error, formula: formula.clone() }
     }
 
-    /// The place of each line, and all places up to where it goes through a plane that the place is
-    /// next to.
+    /// Bounds of the point at `s` of each line. If the point is next to a plane, they hold all
+    /// points up to the line's crossing with it.
     #[inline(always)]
     fn sizes(line: &Line8, s: F8) -> Sizes {
         let (p, e) = (line.point(s).map(F8::abs), line.error(s.abs()));
@@ -110,7 +108,7 @@ impl ImplicitKernel for Star {
                     let (a, b) = ((-o - (1.0 + ROOM)) / d, (-o + (1.0 + ROOM)) / d);
                     (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
                 }
-                // Of a line that is known badly the doubt begins before all of the solid.
+                // A line with a large error is uncertain from in front of the solid to behind it.
                 let far = F8::splat(2.0 * (1.0 + ROOM));
                 (part.from, part.to) = (part.unsure.select(-far, from), part.unsure.select(far, to));
             },
@@ -126,8 +124,7 @@ impl ImplicitKernel for Star {
                 let near = x.min(y).min(z).le(line.error(told.a.abs()) * NEAR);
                 within = told.lanes & told.sign.lt(F8::ZERO);
                 told.seen = told.lanes & !within;
-                // Who begins next to a plane is not known to be outside up to it, and is left to
-                // others.
+                // A ray that starts next to a plane is not proven outside up to it: fall back.
                 told.falls = told.seen & !(near & told.hint.equals(NEVER));
                 let mut end = told.last;
                 for (o, d) in [(line.o.x, line.d.x), (line.o.y, line.d.y), (line.o.z, line.d.z)] {

@@ -1,4 +1,5 @@
-//! The superellipsoid: a ball, a box, a double cone, a cushion or a star, as two exponents say.
+//! The superellipsoid: a ball, a box, a double cone, a cushion or a star, depending on two
+//! exponents.
 //!
 //! ```text
 //!   (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1,  e, n > 0
@@ -6,9 +7,9 @@
 //!   e shapes the sections across z (1: circles, towards 0: squares, 2: diamonds, beyond: stars), n those along z
 //! ```
 //!
-//! With `e <= 2` and `n <= 2` it is convex, and most rays do without what follows
-//! (`convex/`). With `2 <= e, n <= 8` what is outside is convex between the planes
-//! of two axes, and lanes do without it outside (`concave.rs`).
+//! With `e <= 2` and `n <= 2` it is convex, and most rays need no interval bounds (`convex/`). With
+//! `2 <= e, n <= 8` the outside is convex between the planes of two axes, and packets need no
+//! interval bounds outside (`concave.rs`).
 //!
 //! A. H. Barr, "Superquadrics and angle-preserving transformations", *IEEE Computer Graphics and
 //! Applications* 1(1), 1981.
@@ -16,7 +17,7 @@
 //! Powers rise, so bounds of the formula on a box are as tight as those of `|x|`, `|y|` and `|z|`.
 //! Its slope is not: it is unbounded at the planes `x = 0` and `y = 0` for `e > 2`, at `z = 0` for
 //! `n > 2`, and on the z axis for `n > e`, where the inner sum is zero. Stretches of a ray there
-//! are told apart by the bounds alone, down to the rounding of the formula if need be: no crossing
+//! are separated by the bounds alone, down to the rounding of the formula if necessary: no crossing
 //! is lost, but one on an edge or at a tip of the surface itself may be reported as a cluster.
 
 pub(super) mod concave;

@@ -1,8 +1,8 @@
-//! Joins crossings that are found twice, and decides what unproven candidates are.
+//! Joins crossings that are found twice, and decides the kind of unproven candidates.
 //!
-//! Patches share edges, so two of them may find the same crossing. A corner that the ray cannot tell
-//! from a point is an unproven candidate at its vertex. Candidates that may be the same crossing are
-//! joined. What the others are is decided as `alternation.rs` says.
+//! Patches share edges, so two of them may find the same crossing. A corner that is within the
+//! ray's error a single point is an unproven candidate at its vertex. Candidates that may be the
+//! same crossing are joined. Alternation decides the others (`alternation.rs`).
 
 use super::limit::{Extra, Limit};
 use crate::patch::line::Found;
@@ -16,9 +16,9 @@ impl Limit {
 
     /// Whether two may be the same crossing.
     ///
-    /// Within a patch: boxes that touch, or one where the other's proof says that it is alone. In
-    /// different ones: on an edge, or in a corner beside it, at the same place of the line and in the
-    /// same direction; what has no direction goes with any.
+    /// Within a patch: their boxes touch, or one is where the other is proven to be the only
+    /// crossing. In different ones: they are on an edge, or in a corner next to it, at the same
+    /// place of the line and in the same direction; an unknown direction matches any.
     fn is_same(&self, a: &Found, b: &Found, extra: &[Extra]) -> bool {
         if a.face == b.face {
             return is_held(a, b) || is_held(b, a) || overlap(a, b);
@@ -31,7 +31,7 @@ impl Limit {
         may_be && is_alike && (a.s - b.s).abs() <= a.s_err + b.s_err + rooms[0] + rooms[1]
     }
 
-    /// Joins what is the same crossing.
+    /// Joins duplicates of one crossing.
     pub(super) fn join(&self, found: &mut Vec<Found>, extra: &[Extra]) {
         if found.len() < 2 {
             return;

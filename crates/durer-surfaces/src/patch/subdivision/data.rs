@@ -67,7 +67,7 @@ pub struct SubdivisionData {
     pub boundary: Boundary,
 }
 
-/// The numbers of so many vertices, as a message says them.
+/// The range of the numbers of `count` vertices, for messages.
 fn numbers(count: usize) -> String {
     count.checked_sub(1).map_or_else(String::new, |last| format!(" (0 to {last})"))
 }

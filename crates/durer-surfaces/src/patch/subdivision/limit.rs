@@ -1,16 +1,16 @@
 //! The limit surface of a control mesh: patches, and corners that become patches only when a ray
 //! comes near.
 //!
-//! A face next to an extraordinary vertex is refined to three patches and a smaller corner, again and
-//! again. Some steps are taken ahead; what is left is refined for each ray that meets the convex hull
-//! of its points, by the same sums, so that no hit depends on what was taken ahead. What a corner was
-//! refined to stays for the rays that follow, up to a limit. When the hull is as small as the errors of
-//! the ray, it is one candidate, and joined with what is found beside it.
+//! A face next to an extraordinary vertex is refined to three patches and a smaller corner, again
+//! and again. Some steps are computed in advance. The remaining corner is refined for each ray that
+//! meets the convex hull of its points, by the same sums, so no hit depends on the steps in
+//! advance. The refined parts are kept for later rays, up to a limit. When the hull is as small as
+//! the errors of the ray, it becomes one candidate, which is joined with adjacent crossings.
 //!
-//! Coordinates are held in double-double, from the control points on, which are exact. A step
-//! makes at most 35 roundings of `2^-106` of the size of the surface, and no step makes the errors of
-//! the one before larger, because its weights are not negative and have the sum 1. After 120 steps
-//! that is less than `2^-93`; the bounds of cells and hulls include `2^-90`.
+//! Coordinates are in double-double, starting from the exact control points. A step makes at most
+//! 35 roundings of `2^-106` of the size of the surface, and no step makes the errors of the one
+//! before larger, because its weights are not negative and have the sum 1. After 120 steps that is
+//! less than `2^-93`; the bounds of cells and hulls include `2^-90`.
 
 use super::Scheme;
 use super::plan::{Plan, Plans, Wheel, net, refine};
@@ -33,32 +33,32 @@ use durer_math::{Aabb, Dd, Isa, Point3, U, Vec3};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The error of points besides their rounding to f64, in units.
+/// The error of points in addition to their rounding to f64, in units.
 pub(super) const E_POINTS: f64 = durer_math::scale::pow2(-90);
-/// Functions that are less than this many errors all over a hull are not told from zero.
+/// Functions that are within this many errors of zero on all of a hull count as zero.
 const NOISE: f64 = 8.0;
-/// No corner is refined more often.
+/// The most refinements of a corner.
 pub(super) const MOST_STEPS: u32 = 120;
-/// Steps that are taken ahead at most.
+/// The most steps in advance.
 pub(super) const AHEAD: u32 = 6;
-/// Steps that are taken ahead at most for triangles, whose patches take more time to make.
+/// The most steps in advance for triangles, whose patches take more time to build.
 const AHEAD_TRIANGLES: u32 = 3;
-/// Fewer steps are taken ahead if there would be more patches than this.
+/// If there would be more patches than this, fewer steps are computed in advance.
 const MANY: usize = 1 << 18;
-/// So many steps of corners are kept, of about 16 kB each.
+/// The most steps of corners that are kept, of about 16 kB each.
 const MOST_KEPT: usize = 4096;
 
 /// A part of a face in its parameters: a square, or a triangle with this corner. In the middle of a
-/// triangle parameters run against those of the whole, and the width is negative.
+/// triangle parameters run in the opposite direction, and the width is negative.
 ///
-/// Parameters near 1 count from there, so that they are as sharp as those near 0: a crossing may be
-/// far nearer to a vertex than two numbers beside 1 are to one another. As a tag of a root such a
-/// parameter has a minus sign, and `-0` is 1.
+/// Parameters near 1 are stored relative to 1, so that they are as precise as those near 0: a
+/// crossing may be far nearer to a vertex than the spacing of numbers at 1. In the tag of a root
+/// such a parameter has a minus sign, and `-0` is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) face: u32,
     pub(super) is_triangle: bool,
-    /// Which parameters count from 1.
+    /// The parameters that are relative to 1.
     is_far: [bool; 2],
     pub(super) from: [f64; 2],
     pub(super) width: f64,
@@ -98,7 +98,7 @@ impl Place {
         part
     }
 
-    /// A tag as parameters that count from 0 or from 1 as here, less those of the first corner.
+    /// Converts a tag to parameters relative to the first corner, stored from 0 or 1 as here.
     fn within(&self, tag: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let from = match (self.is_far[k], tag[k].is_sign_negative()) {
@@ -171,18 +171,18 @@ impl Node {
         }))
     }
 
-    /// The patch that it is, if it is one.
+    /// Its net, if it is a patch.
     pub(super) fn net(&self, plans: &[Plan]) -> Option<FaceNet> {
         net(&plans[self.plan as usize], &self.points)
     }
 
-    /// The corner at which it is refined for ever, the first one if there are more.
+    /// The corner at which refinement does not end, the first one if there are several.
     pub(super) fn vertex(&self, plans: &[Plan]) -> Option<usize> {
         let Plan::Split { quarters, .. } = &plans[self.plan as usize] else { return None };
         quarters.iter().position(|q| matches!(plans[q.plan as usize], Plan::Split { .. }))
     }
 
-    /// That vertex and what is round it, if it is smooth.
+    /// That vertex and its neighbourhood, if it is smooth.
     pub(super) fn wheel<'a>(&self, plans: &'a [Plan]) -> Option<&'a Wheel> {
         let Plan::Split { wheels, .. } = &plans[self.plan as usize] else { return None };
         let vertex = self.vertex(plans)?;
@@ -190,7 +190,7 @@ impl Node {
     }
 }
 
-/// A patch as it is resolved: its net relative to `base`.
+/// The data of a patch for resolving hits: its net relative to `base`.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf {
     pub(super) place: Place,
@@ -217,18 +217,18 @@ impl Leaf {
     }
 }
 
-/// A patch that a corner was refined to.
+/// A patch from the refinement of a corner.
 #[derive(Debug)]
 pub(super) struct Patch {
     pub(super) leaf: Leaf,
     /// Its control points relative to the leaf's base.
     hull: Box<[[f64; 3]]>,
     net: FaceNet,
-    /// Made when a ray meets the hull.
+    /// The cells, built when a ray meets the hull.
     cells: OnceLock<Box<[Cell]>>,
 }
 
-/// A face that is no patch, and what it is refined to, once a ray has come near.
+/// A face that is no patch, and its refined parts once a ray has come near.
 #[derive(Debug)]
 pub(super) struct Tail {
     pub(super) node: Node,
@@ -255,8 +255,8 @@ impl Tail {
         Self { node, base, relative, finer: OnceLock::new() }
     }
 
-    /// The refined parts. They stay with the corner, unless its surface keeps many already, as `kept`
-    /// counts: then they are in `spare`. `None` if the corner is a patch.
+    /// The refined parts. The corner keeps them, unless the surface keeps many already (`kept`):
+    /// then they are in `spare`. `None` if the corner is a patch.
     pub(super) fn finer<'a>(
         &'a self,
         plans: &[Plan],
@@ -314,14 +314,14 @@ pub(super) struct Limit {
     pub(super) bounds: Aabb,
     pub(super) centre: Point3,
     pub(super) scale: i32,
-    /// The radius of a ball about the centre that holds everything.
+    /// The radius of a ball about the centre that holds the surface.
     pub(super) reach: f64,
     pub(super) plans: Box<[Plan]>,
     pub(super) leaves: Box<[Leaf]>,
     pub(super) tails: Box<[Tail]>,
-    /// How many steps of them are kept.
+    /// The number of their steps that are kept.
     pub(super) kept: AtomicUsize,
-    /// First one for each face.
+    /// The first ones are those of the faces, in order.
     pub(super) spots: Box<[Spot]>,
     /// The control points of the leaves in double-double.
     nets: Box<[FaceNet]>,
@@ -341,16 +341,17 @@ pub(super) struct Limit {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extra {
     pub(super) place: Place,
-    /// How far along the line the same crossing may be found beside it; 0 for a patch.
+    /// The distance along the line within which adjacent parts may have the same crossing; 0 for a
+    /// patch.
     pub(super) room: f64,
 }
 
-/// Lists of one ray, kept by the thread so that rays do not allocate.
+/// Lists of one ray. The thread keeps them so that rays do not allocate.
 #[derive(Default)]
 pub(super) struct Lists {
     open: Open,
     pub(super) found: Vec<Found>,
-    /// Those that are passed on before the line has been searched to its end.
+    /// Crossings that are passed on before the search has reached the line's end.
     early: Vec<Found>,
     pub(super) extra: Vec<Extra>,
     ahead: Ahead,
@@ -412,7 +413,7 @@ impl Limit {
         let mut spots = vec![Spot::Tail(0); mesh.faces.len()];
         let (mut leaves, mut nets, mut tails) = (Vec::new(), Vec::new(), Vec::new());
         let mut all = Vec::new();
-        // What becomes an element of the tree, and its box.
+        // The elements of the tree, and their boxes.
         let (mut boxes, mut items) = (Vec::new(), Vec::new());
         let room = Vec3::new(1.0, 1.0, 1.0) * (4.0 * U);
         let mut open: Vec<(usize, Node)> =
@@ -428,7 +429,7 @@ impl Limit {
                     boxes.extend(all[first..].iter().map(|(_, bounds)| *bounds));
                     items.extend((first..all.len()).map(|k| Item::Cell(k as u32)));
                 } else {
-                    // Beside a corner there are many, of one or a few cells.
+                    // Near a corner there are many, of one or a few cells.
                     boxes.push(hull(net.points().iter().map(|&[x, y, z, _]| [x, y, z])).expanded(room));
                     items.push(Item::Leaf(leaves.len() as u32));
                 }
@@ -476,7 +477,7 @@ impl Limit {
         })
     }
 
-    /// How many patches and corners there are ahead of any ray.
+    /// The number of patches and corners that are built in advance.
     pub(super) fn counts(&self) -> [usize; 2] {
         [self.leaves.len(), self.tails.len()]
     }
@@ -515,7 +516,7 @@ impl Limit {
         LISTS.set(lists);
     }
 
-    /// Decides what the crossings along a whole line are.
+    /// Decides the kind of all crossings along a whole line.
     #[cold]
     #[inline(never)]
     fn decide(&self, lists: &mut Lists) {
@@ -580,8 +581,8 @@ impl Limit {
         self.leaves.get(k).map_or_else(|| extra[k - self.leaves.len()].place, |leaf| leaf.place)
     }
 
-    /// Finds the crossings in a window. `send` is called with the place where the next part of the
-    /// surface begins, whenever crossings may be left behind; it says where the window ends now.
+    /// Finds the crossings in a window. Calls `send` with the start of the next part of the surface
+    /// whenever crossings before it may be final; `send` returns the present end of the window.
     #[inline(always)]
     fn meet(
         &self,
@@ -620,7 +621,7 @@ impl Limit {
         ControlFlow::Continue(())
     }
 
-    /// Finds what a line meets of a corner.
+    /// Finds the crossings of a line and a corner.
     #[inline(never)]
     fn unfold(&self, at: &CentredRay<'_>, line: &Line, tail: &Tail, window: [f64; 2], lists: &mut Lists) {
         Isa::detect().run(
@@ -657,7 +658,7 @@ impl Limit {
             }
             return;
         }
-        // All of it is as near as the ray is known; the vertex stands for it.
+        // All of it is within the ray's error; the vertex represents it.
         let (place, vertex) = (tail.node.place, tail.node.vertex(&self.plans));
         let middle = [if self.is_triangles { 1.0 / 3.0 } else { 0.5 }; 2];
         let [low, high] = sight.plane.unwrap_or(sight.s);
@@ -677,10 +678,10 @@ impl Limit {
         });
     }
 
-    /// Finds where a line meets a patch of a corner.
+    /// Finds the crossings of a line and a patch of a corner.
     #[inline(always)]
     fn meet_patch(&self, at: &CentredRay<'_>, line: &Line, patch: &Patch, lists: &mut Lists) {
-        // The hull of its own net is much smaller than that of the points about it.
+        // The hull of its own net is much smaller than that of the points that it depends on.
         if line.misses(patch.leaf.base, &patch.hull, E_POINTS) {
             return;
         }
@@ -695,7 +696,7 @@ impl Limit {
         }
     }
 
-    /// The frame of points: their centre, the exponent of the unit, and how far they reach.
+    /// The frame of points: their centre, the exponent of the unit, and the radius that holds them.
     pub(super) fn frame(points: impl Iterator<Item = Point3>) -> (Point3, i32, f64) {
         let hull = Aabb::from_points(points);
         let centre = hull.centre();

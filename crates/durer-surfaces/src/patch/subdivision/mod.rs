@@ -1,4 +1,4 @@
-//! The subdivision surface: what a mesh of polygons becomes when it is refined for ever.
+//! The subdivision surface: the limit of a polygon mesh under repeated refinement.
 //!
 //! ```text
 //!      ●──────●            ●──●──●           ╭────╮       each step: a point for every face, edge
@@ -11,11 +11,13 @@
 //!
 //! Polygons follow the rules of Catmull and Clark (`topology.rs`), triangles those or Loop's
 //! (`triangles.rs`). Where all vertices of a quadrilateral have four edges, the limit is a bicubic
-//! B-spline patch, met as a [`BezierPatch`](crate::BezierPatch) is; where those of a triangle have six,
-//! a quartic one, met as a [`TriangularPatch`](crate::TriangularPatch) is. A face at another vertex is
-//! refined to three patches and a smaller corner; the corner is refined on for the rays that come near, down to the size of their
-//! rounding errors (`limit.rs`). At the very vertex the limit and its normal are known in closed form
-//! (`plan.rs`). Edges that are sharp for some steps only are refined until they are smooth.
+//! B-spline patch, intersected like a [`BezierPatch`](crate::BezierPatch); where those of a
+//! triangle have six, a quartic one, intersected like a
+//! [`TriangularPatch`](crate::TriangularPatch). A face at another vertex is refined to three
+//! patches and a smaller corner; the corner is refined further for rays that come near, down to the
+//! size of their rounding errors (`limit.rs`). At the vertex itself the limit and its normal have a
+//! closed form (`plan.rs`). Edges that are sharp for some steps only are refined until they are
+//! smooth.
 //!
 //! E. Catmull, J. Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes",
 //! *Computer-Aided Design* 10 (1978) 350-355; T. DeRose, M. Kass, T. Truong, "Subdivision surfaces in
@@ -54,12 +56,12 @@ pub use data::{Boundary, Scheme, SubdivisionData, SubdivisionError, UvInterpolat
 
 /// The limit surface of a control mesh under Catmull and Clark's subdivision, or under Loop's.
 ///
-/// A mesh without boundary is a solid: what the surface encloses. Otherwise it is an open surface,
-/// whose stored normal is that of the faces as they are wound. Under Loop's rules a root's face is a
-/// triangle of the mesh, and its tag `(u, v)` in that, with `u + v <= 1`. Otherwise it is a
-/// quadrilateral, and its tag `(u, v)` in that: a face with four vertices is one, if all faces of the mesh have four;
-/// otherwise each face is as many as it has vertices ([`SubdivisionSurface::control_face`]). In a tag a
-/// number with a minus sign is that much less than 1, so that both ends are equally sharp.
+/// A mesh without boundary encloses a solid. Otherwise it is an open surface, whose stored normal
+/// follows the winding of the faces. Under Loop's rules a root's face is a triangle of the mesh,
+/// and its tag `(u, v)` in that, with `u + v <= 1`. Otherwise it is a quadrilateral, and its tag
+/// `(u, v)` in that: a face with four vertices is one, if all faces of the mesh have four;
+/// otherwise each face is as many as it has vertices ([`SubdivisionSurface::control_face`]). In a
+/// tag a number with a minus sign is that much less than 1, so that both ends are equally sharp.
 ///
 /// ```
 /// use durer_math::{Point3, Ray, Vec3};
@@ -90,15 +92,15 @@ pub struct SubdivisionSurface {
     limit: Arc<Limit>,
     /// The face of the control mesh of each quadrilateral or triangle.
     origins: Arc<[u32]>,
-    /// Texture coordinates at the corners of each quadrilateral, of triangles with one more that is
-    /// not read; empty if they are its parameters.
+    /// Texture coordinates at the corners of each quadrilateral; triangles have an unused fourth.
+    /// Empty if the parameters are used.
     uv: Arc<[[[f64; 2]; 4]]>,
-    /// Texture coordinates by the rules of the surface, if they are wanted.
+    /// Texture coordinates by the rules of the surface, if requested.
     smooth_uv: Option<Arc<SmoothUv>>,
     is_closed: bool,
 }
 
-/// A sharpness as the rules take it.
+/// Converts a sharpness to the form that the rules use.
 fn sharpness_of(given: f64) -> f64 {
     if given >= INFINITELY_SHARP { f64::INFINITY } else { given }
 }
@@ -111,7 +113,7 @@ fn topology(data: &SubdivisionData) -> Topology {
         faces: data.faces.clone(),
         ..Topology::default()
     };
-    // Of two values for one edge the sharper counts.
+    // Of two values for one edge the sharper is used.
     for &([a, b], sharpness) in &data.creases {
         let entry = mesh.creases.entry(edge_of(a, b)).or_insert(0.0);
         *entry = entry.max(sharpness_of(sharpness));
@@ -151,7 +153,7 @@ impl SubdivisionSurface {
         Self::made(data, AHEAD)
     }
 
-    /// The same, with fewer steps taken ahead.
+    /// The surface with fewer steps computed in advance.
     #[cfg(test)]
     fn remade(&self, ahead: u32) -> Self {
         Self::made((*self.data).clone(), ahead).unwrap_or_else(|_| self.clone())
@@ -227,7 +229,7 @@ impl SubdivisionSurface {
         self.origins.get(face as usize).copied()
     }
 
-    /// How many patches, and corners that are refined on demand, are made ahead of any ray.
+    /// The number of patches, and of corners that are refined on demand, that are built in advance.
     pub fn counts(&self) -> [usize; 2] {
         self.limit.counts()
     }
@@ -326,7 +328,7 @@ impl Accelerate for SubdivisionSurface {
 }
 
 impl Algebraic for SubdivisionSurface {
-    /// Along a ray it has no polynomial of low degree.
+    /// The surface has no polynomial of low degree along a ray.
     fn polynomial(&self, _face: u32, _ray: &LocalRay<'_>) -> Option<Quadratic<Dyadic>> {
         None
     }

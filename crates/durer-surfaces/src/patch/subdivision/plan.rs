@@ -1,13 +1,14 @@
-//! Plans: what becomes of a face and what is round it, step by step, without coordinates.
+//! Plans: the refinement of a face and its neighbourhood, step by step, without coordinates.
 //!
 //! A quadrilateral whose own vertices all follow the rules of B-splines is a bicubic patch, and a
-//! triangle whose vertices follow those of box splines a quartic one. Any other is refined to four. Faces with equal surroundings have one plan, and deep down the corner at an
-//! extraordinary vertex has the plan of the corner before, so that there are few plans, and a step is
-//! a fixed list of sums (W. Brainerd, T. Foley, M. Kraemer, H. Moreton, M. Niessner, "Efficient GPU
-//! rendering of subdivision surfaces using adaptive quadtrees", *SIGGRAPH* 2016). That a boundary or
-//! a crease is that of a B-spline with points mirrored in it: J. M. Lane, R. F. Riesenfeld, "A
-//! theoretical development for the computer generation and display of piecewise polynomial surfaces",
-//! *IEEE PAMI* 2 (1980) 35-46, end conditions.
+//! triangle whose vertices follow those of box splines a quartic one. Any other is refined to four.
+//! Faces with equal neighbourhoods share one plan, and after some steps the corner at an
+//! extraordinary vertex has the plan of the corner before, so there are few plans, and a step is a
+//! fixed list of sums (W. Brainerd, T. Foley, M. Kraemer, H. Moreton, M. Niessner, "Efficient GPU
+//! rendering of subdivision surfaces using adaptive quadtrees", *SIGGRAPH* 2016). That a boundary
+//! or a crease is that of a B-spline with points mirrored in it: J. M. Lane, R. F. Riesenfeld, "A
+//! theoretical development for the computer generation and display of piecewise polynomial
+//! surfaces", *IEEE PAMI* 2 (1980) 35-46, end conditions.
 
 use super::Scheme;
 use super::topology::{Adjacency, Fan, Rule, Stencil, Topology, apply};
@@ -17,15 +18,15 @@ use durer_math::Dd;
 use durer_math::elementary;
 use std::collections::HashMap;
 
-/// A quarter of a face: its plan, and which points of the finer mesh it takes.
+/// A quarter of a face: its plan, and the points of the finer mesh that it uses.
 #[derive(Clone, Debug)]
 pub(super) struct Quarter {
     pub(super) plan: u32,
     pub(super) points: Box<[u32]>,
 }
 
-/// A smooth vertex inside: its own point, the ends of its edges and the points across its faces, of
-/// triangles none, counter-clockwise.
+/// A smooth interior vertex: its own point, the ends of its edges and, except for triangles, the
+/// opposite points of its faces, counter-clockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Wheel {
     pub(super) centre: u32,
@@ -33,7 +34,7 @@ pub(super) struct Wheel {
     pub(super) across: Box<[u32]>,
 }
 
-/// How a face is met.
+/// How a face is intersected.
 #[derive(Clone, Debug)]
 pub(super) enum Plan {
     /// A bicubic B-spline patch: the points of its net, row by row from v = -1 on; without those
@@ -51,14 +52,14 @@ pub(super) enum Plan {
     },
 }
 
-/// The plans, each once.
+/// All plans, without duplicates.
 #[derive(Default)]
 pub(super) struct Plans {
     pub(super) all: Vec<Plan>,
     known: HashMap<Vec<u64>, u32>,
 }
 
-/// The properties by which neighbourhoods differ.
+/// A key that is equal for equal neighbourhoods.
 fn key(mesh: &Topology) -> Vec<u64> {
     let mut key = vec![mesh.points as u64, mesh.faces.len() as u64];
     key.extend(mesh.faces.iter().flat_map(|f| f.iter().map(|v| u64::from(*v))));
@@ -155,7 +156,7 @@ pub(super) fn side_of_crease(fan: &Fan, face: usize) -> usize {
 }
 
 impl Plans {
-    /// The plan of a face and what is round it; `None` only if that is not a part of a valid mesh.
+    /// The plan of a face and its neighbourhood; `None` only if that is not a part of a valid mesh.
     pub(super) fn of(&mut self, mesh: &Topology) -> Option<u32> {
         let key = key(mesh);
         if let Some(&plan) = self.known.get(&key) {
@@ -174,7 +175,7 @@ impl Plans {
             self.all.push(patch);
             return Some(number);
         }
-        // A place, for corners whose plan is this one again.
+        // A placeholder, for corners whose plan is this one again.
         self.all.push(Plan::Regular(Box::new([None; 16])));
         let finer = adjacency.refined(|v| (v as usize) < sides);
         let wheel = |(k, fan): (usize, &Fan)| {
@@ -296,7 +297,7 @@ pub(super) fn limit(wheel: &Wheel, points: &[[Dd; 3]]) -> [[Dd; 3]; 3] {
     let cos = |k: f64| elementary::cos(2.0 * core::f64::consts::PI * k / count);
     let root = (2.0 * (9.0 + cos(1.0))).sqrt();
     let a = 1.0 + cos(1.0) + cos(0.5) * root;
-    // Relative to the vertex, so that nothing is lost however small the wheel is.
+    // Relative to the vertex, so that no digits are lost however small the wheel is.
     let relative: Vec<[Dd; 3]> =
         points.iter().map(|p| [0, 1, 2].map(|c| p[c] - points[wheel.centre as usize][c])).collect();
     let tangent = |shift: usize| {

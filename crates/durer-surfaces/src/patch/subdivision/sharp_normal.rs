@@ -61,8 +61,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Makes three columns orthonormal, in place; what they were is the columns times the upper triangle
-/// that is returned. A column that depends on those before becomes zero.
+/// Makes three columns orthonormal, in place, and returns the upper triangular matrix by which
+/// their product is the original. A column that depends on those before becomes zero.
 fn orthonormal(columns: &mut [Column; 3]) -> [[f64; 3]; 3] {
     let mut r = [[0.0; 3]; 3];
     for k in 0..3 {

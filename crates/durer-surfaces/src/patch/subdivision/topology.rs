@@ -1,5 +1,4 @@
-//! One step of refinement: which points of a finer mesh come from which of a coarser one, and by
-//! what weights.
+//! One step of refinement: the points of a finer mesh as weighted sums of those of a coarser one.
 //!
 //! ```text
 //!   face point     the mean of the face's vertices
@@ -12,15 +11,15 @@
 //!
 //! These are the rules of polygons; those of triangles are in `triangles.rs`.
 //!
-//! E. Catmull, J. Clark, *Computer-Aided Design* 10 (1978) 350-355; creases and boundaries: T. DeRose,
-//! M. Kass, T. Truong, "Subdivision surfaces in character animation", *SIGGRAPH* 1998. A sharpness
-//! falls by 1 with each step; between 0 and 1 the sharp and the smooth rule are mixed. Where a
-//! vertex's rule changes with the step, the rules before and after are mixed by the mean of the
-//! sharpnesses that end. All weights are at least 0 and have the sum 1, so what a mesh becomes stays
-//! in the convex hull of its points.
+//! E. Catmull, J. Clark, *Computer-Aided Design* 10 (1978) 350-355; creases and boundaries: T.
+//! DeRose, M. Kass, T. Truong, "Subdivision surfaces in character animation", *SIGGRAPH* 1998. A
+//! sharpness falls by 1 with each step; between 0 and 1 the sharp and the smooth rule are mixed.
+//! Where a vertex's rule changes with the step, the rules before and after are mixed by the mean of
+//! the sharpnesses that end. All weights are at least 0 and have the sum 1, so refined meshes stay
+//! in the convex hull of the mesh's points.
 //!
 //! The limit over a face depends on the points of the faces that touch it, and on the sharpness of
-//! edges at its own vertices: [`Topology::around`] cuts that out.
+//! edges at its own vertices: [`Adjacency::around`] extracts that part.
 
 use super::Scheme;
 use super::triangles::{NEAR, OPPOSITE, neighbour_weight};
@@ -37,13 +36,13 @@ pub(super) struct Topology {
     /// The number of points.
     pub(super) points: usize,
     pub(super) faces: Vec<Vec<u32>>,
-    /// Sharp edges but for boundaries, the lesser number first.
+    /// The sharp edges except boundaries, by vertices with the lesser number first.
     pub(super) creases: BTreeMap<[u32; 2], f64>,
-    /// Sharp vertices.
+    /// The sharp vertices.
     pub(super) corners: BTreeMap<u32, f64>,
 }
 
-/// The two ends in their order.
+/// The two ends, ascending.
 pub(super) fn edge_of(a: u32, b: u32) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
@@ -56,16 +55,16 @@ pub(super) enum Rule {
     Corner,
 }
 
-/// What is next to a vertex, counter-clockwise.
+/// The neighbourhood of a vertex, counter-clockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Fan {
     /// The other ends of its edges.
     pub(super) ends: Vec<u32>,
     /// The faces: the one at `k` is between the ends `k` and `k + 1`.
     pub(super) faces: Vec<usize>,
-    /// How sharp the edges are; infinite at a boundary.
+    /// The sharpness of the edges; infinite at a boundary.
     pub(super) sharpness: Vec<f64>,
-    /// How sharp the vertex is.
+    /// The sharpness of the vertex.
     pub(super) corner: f64,
 }
 
@@ -84,7 +83,7 @@ impl Fan {
         Self::rule_of(&self.sharpness, self.corner)
     }
 
-    /// Whether the rule stays as it is: nothing is sharp only for some steps.
+    /// Whether the rule does not change: nothing is sharp only for some steps.
     pub(super) fn is_final(&self) -> bool {
         self.sharpness.iter().chain([&self.corner]).all(|s| *s == 0.0 || s.is_infinite())
     }
@@ -100,14 +99,14 @@ fn less_sharp(sharpness: f64) -> f64 {
     (sharpness - 1.0).max(0.0)
 }
 
-/// What is next to what.
+/// The adjacency of faces.
 pub(super) struct Adjacency<'a> {
     mesh: &'a Topology,
     /// The face on the left of a directed edge, and the edge's place in it.
     pub(super) left: HashMap<[u32; 2], (usize, usize)>,
 }
 
-/// A part of a mesh round one face: its numbers of points count as the second list says.
+/// The part of a mesh around one face, with the original number of each of its points.
 pub(super) struct Part {
     pub(super) mesh: Topology,
     pub(super) points: Vec<u32>,
@@ -124,7 +123,7 @@ impl<'a> Adjacency<'a> {
         Self { mesh, left }
     }
 
-    /// How sharp an edge is; infinitely at a boundary.
+    /// The sharpness of an edge; infinite at a boundary.
     fn sharpness(&self, a: u32, b: u32) -> f64 {
         if !(self.left.contains_key(&[a, b]) && self.left.contains_key(&[b, a])) {
             return f64::INFINITY;
@@ -139,8 +138,7 @@ impl<'a> Adjacency<'a> {
         Some([corners[(at + 1) % n], corners[(at + n - 1) % n]])
     }
 
-    /// The face on the left of a directed edge; of it the vertex behind the edge's end, and the one
-    /// behind that.
+    /// The face on the left of a directed edge, and its two vertices after the edge's end.
     pub(super) fn across(&self, a: u32, b: u32) -> Option<(usize, [u32; 2])> {
         let &(face, at) = self.left.get(&[a, b])?;
         let corners = &self.mesh.faces[face];
@@ -184,13 +182,13 @@ impl<'a> Adjacency<'a> {
         Some(fan)
     }
 
-    /// The part of the mesh on which the limit over a face depends. The first face of the part is that
-    /// one, its vertices are the first ones.
+    /// The part of the mesh on which the limit over a face depends. That face is the first of the
+    /// part, and its vertices are the first ones.
     pub(super) fn around(&self, face: usize) -> Option<Part> {
         self.around_from(face, 0)
     }
 
-    /// The same, with the face's vertices from the one at `first` on.
+    /// [`Adjacency::around`], with the face's vertices starting from the one at `first`.
     pub(super) fn around_from(&self, face: usize, first: usize) -> Option<Part> {
         let mut points: Vec<u32> = self.mesh.faces[face].clone();
         points.rotate_left(first);
@@ -253,12 +251,12 @@ fn finish(sum: BTreeMap<u32, Dd>) -> Stencil {
     sum.into_iter().filter(|(_, w)| *w != Dd::ZERO).collect()
 }
 
-/// A finer mesh and where its points come from. Each face has become one for each of its corners, in
-/// their order, which begins there; of a triangle the one in the middle follows.
+/// A finer mesh and the sources of its points. Each face is replaced by one for each of its
+/// corners, in order, which begins there; for a triangle the one in the middle follows.
 pub(super) struct Finer {
     pub(super) mesh: Topology,
     pub(super) stencils: Vec<Stencil>,
-    /// For each finer face, the face and the corner it is of; in the middle of a triangle that is 3.
+    /// For each finer face, its original face and corner; 3 for the middle of a triangle.
     pub(super) origins: Vec<(usize, usize)>,
 }
 
@@ -342,7 +340,7 @@ impl Adjacency<'_> {
             self.add_rule(&mut sum, v, fan, (rules[0], &fan.sharpness), Dd::ONE);
             return finish(sum);
         }
-        // What is sharp for the last time.
+        // The sharpnesses that end with this step.
         let all = fan.sharpness.iter().chain([&fan.corner]);
         let ending: Vec<f64> = all.copied().filter(|s| *s > 0.0 && less_sharp(*s) == 0.0).collect();
         let part = Dd::from(ending.iter().sum::<f64>()) / whole(ending.len().max(1));
@@ -352,8 +350,8 @@ impl Adjacency<'_> {
         finish(sum)
     }
 
-    /// The finer mesh: of the corners of faces that `wanted` says, all but those whose fan is not
-    /// known, and the middles of triangles with two such corners.
+    /// The finer mesh: the corners of faces that `wanted` accepts, except those whose fan is
+    /// unknown, and the middles of triangles with two such corners.
     pub(super) fn refined(&self, wanted: impl Fn(u32) -> bool) -> Finer {
         let is_loop = self.mesh.scheme == Scheme::Loop;
         let mut step = Step {
@@ -397,7 +395,7 @@ impl Adjacency<'_> {
     }
 }
 
-/// A finer mesh on the way.
+/// A finer mesh under construction.
 struct Step<'a> {
     coarse: &'a Adjacency<'a>,
     mesh: Topology,
@@ -443,8 +441,7 @@ impl Step<'_> {
     }
 }
 
-/// A sum of points with weights: in halves, so that its error grows with the logarithm of their
-/// number.
+/// A weighted sum of points, by halves, so that its error grows with the logarithm of their number.
 pub(super) fn apply(stencil: &[(u32, Dd)], points: &[[Dd; 3]]) -> [Dd; 3] {
     if stencil.len() > 8 {
         let (a, b) = stencil.split_at(stencil.len() / 2);

@@ -4,9 +4,9 @@ use super::Ring;
 use super::curve::{Box2, Piece};
 use durer_math::scale::pow2;
 
-/// Curves that are nearer to each other than this part of the domain touch.
+/// Curves that are nearer to each other than this, relative to the domain, touch.
 const NEAR: f64 = pow2(-30);
-/// No two curves are halved more often than this in all.
+/// The most halvings for one pair of curves.
 const MOST_STEPS: usize = 100_000;
 
 /// Why a [`TrimLoop`](super::TrimLoop) cannot be a trim.
@@ -97,7 +97,7 @@ pub enum TrimError {
     OtherWay(usize),
 }
 
-/// Whether all points are finite.
+/// Checks that all points are finite.
 pub(super) fn finite(points: impl Iterator<Item = [f64; 2]>) -> Result<(), TrimError> {
     for (i, [u, v]) in points.enumerate() {
         if !(u.abs() < crate::patch::LARGEST && v.abs() < crate::patch::LARGEST) {
@@ -142,7 +142,7 @@ pub(super) fn knots(degree: usize, points: &[[f64; 3]], given: &[f64]) -> Result
     Ok(given.to_vec())
 }
 
-/// Whether a loop stays in the domain.
+/// Checks that a loop is in the domain.
 pub(super) fn within(pieces: &[Piece], domain: &Box2) -> Result<(), TrimError> {
     for piece in pieces {
         let mut open = vec![piece.clone()];
@@ -161,7 +161,7 @@ pub(super) fn within(pieces: &[Piece], domain: &Box2) -> Result<(), TrimError> {
     Ok(())
 }
 
-/// Whether a loop does not cross itself.
+/// Checks that a loop does not cross itself.
 pub(super) fn alone(pieces: &[Piece], domain: &Box2) -> Result<(), TrimError> {
     let mut search = Search { least: NEAR * domain.size(), steps: 0 };
     if let [one] = pieces {
@@ -196,7 +196,7 @@ pub(super) fn alone(pieces: &[Piece], domain: &Box2) -> Result<(), TrimError> {
     Ok(())
 }
 
-/// Whether no loop crosses another; the number of the loop, from 1.
+/// Checks that no loop crosses another. The error has the number of the loop, from 1.
 pub(super) fn apart(rings: &[Ring], domain: &Box2) -> Result<(), (usize, TrimError)> {
     let mut search = Search { least: NEAR * domain.size(), steps: 0 };
     for (j, b) in rings.iter().enumerate() {
@@ -216,8 +216,8 @@ pub(super) fn apart(rings: &[Ring], domain: &Box2) -> Result<(), (usize, TrimErr
     Ok(())
 }
 
-/// Whether each loop runs the other way than the one around it, and all outermost ones the same way:
-/// then whether what is in no loop stays.
+/// Checks that each loop runs the other way than the one around it, and all outermost ones the same
+/// way. Returns whether points in no loop are kept.
 pub(super) fn directions(rings: &[Ring]) -> Result<bool, (usize, TrimError)> {
     let around = |i: usize| {
         let p = rings[i].pieces[0].start;
@@ -246,7 +246,7 @@ pub(super) fn directions(rings: &[Ring]) -> Result<bool, (usize, TrimError)> {
 
 /// A search for places where curves meet.
 struct Search {
-    /// Curves smaller than this that cannot be told apart meet.
+    /// Curves smaller than this that no line separates meet.
     least: f64,
     steps: usize,
 }
@@ -266,7 +266,8 @@ impl Search {
         self.cross(&low, narrow).or_else(|| self.cross(&high, narrow))
     }
 
-    /// Where two curves meet, of which one ends where the other begins, except there.
+    /// Where two curves meet apart from their common point, the end of one and the start of the
+    /// other.
     fn joined(&mut self, a: &Piece, b: &Piece) -> Option<[f64; 2]> {
         self.steps += 1;
         let small = a.bounds().size().max(b.bounds().size()) < self.least;
@@ -280,7 +281,7 @@ impl Search {
             .or_else(|| self.joined(&mid_a, &mid_b))
     }
 
-    /// Where two curves that have both ends in common meet otherwise.
+    /// Where two curves that have both ends in common meet elsewhere.
     fn both_ends(&mut self, a: &Piece, b: &Piece) -> Option<[f64; 2]> {
         let ([a, mid_a], [mid_b, b]) = (a.halves(), b.halves());
         self.joined(&mid_a, &mid_b)
@@ -299,7 +300,7 @@ impl Search {
     }
 }
 
-/// The directions in which curves may be told apart: the axes, and along and across their chords.
+/// The directions along which curves may be separated: the axes, and along and across their chords.
 fn directions_of(a: &Piece, b: &Piece) -> [[f64; 2]; 6] {
     let chord = |p: &Piece| {
         let [x, y] = [p.end[0] - p.start[0], p.end[1] - p.start[1]];
@@ -336,13 +337,13 @@ fn is_apart(a: &Piece, b: &Piece) -> bool {
     })
 }
 
-/// Whether a line through the end of `a` and the start of `b` separates them otherwise.
+/// Whether a line through the common end of `a` and start of `b` separates them elsewhere.
 fn is_split(a: &Piece, b: &Piece) -> bool {
     let room = room(a, b);
     directions_of(a, b).into_iter().any(|n| {
         let at = a.end[0] * n[0] + a.end[1] * n[1];
         let ((a_low, a_high), (b_low, b_high)) = (range(a, n), range(b, n));
-        // They leave the line in different directions.
+        // They are on different sides of the line.
         a_high <= at + room && b_low >= at - room && (a_low < at - room || b_high > at + room)
             || b_high <= at + room && a_low >= at - room && (b_low < at - room || a_high > at + room)
     })

@@ -1,17 +1,17 @@
-//! Trims: loops of curves in the plane of the parameters. What lies to the left of them stays.
+//! Trims: loops of curves in the plane of the parameters. The part to the left of them is kept.
 //!
-//! A point is inside if a line from it to the right crosses the loops an odd number of times (M. Shimrat,
-//! "Algorithm 112: position of point relative to polygon", *Communications of the ACM* 5 (1962) 434).
-//! A crossing of a ray and a patch is known as a box; all its points are on one side unless a loop
-//! passes through the box. A stretch of a loop that is to the right of the box counts by its ends
-//! alone, so a loop is a tree of stretches and few of them are looked at; a curve that is near the box
-//! is halved until it is not, or as small as the box (the bands of T. Nishita, T. W. Sederberg,
-//! M. Kakimoto, "Ray tracing trimmed rational surface patches", *SIGGRAPH* 1990, without their
-//! tolerance).
+//! A point is inside if a line from it to the right crosses the loops an odd number of times (M.
+//! Shimrat, "Algorithm 112: position of point relative to polygon", *Communications of the ACM* 5
+//! (1962) 434). A crossing of a ray and a patch is known as a box; all its points are on one side
+//! unless a loop passes through the box. The ends of a stretch of a loop that is to the right of
+//! the box decide its crossings, so a loop is a tree of stretches and few of them are visited. A
+//! curve near the box is halved until it is apart from the box or as small (the bands of T.
+//! Nishita, T. W. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches",
+//! *SIGGRAPH* 1990, without their tolerance).
 //!
-//! Loops do not cross. A loop runs counter-clockwise about what stays within it, or clockwise about a
-//! hole, and the next loop within it runs the other way; so an odd number of crossings is "left of the
-//! innermost loop around".
+//! Loops do not cross. A loop runs counter-clockwise about a part that is kept, or clockwise about
+//! a hole, and the next loop within it runs the other way; so an odd number of crossings is "left
+//! of the innermost loop around".
 
 mod check;
 pub(super) mod curve;
@@ -23,22 +23,23 @@ use durer_math::{Dd, U};
 
 pub use check::TrimError;
 
-/// A closed curve in the parameters of a [`Nurbs`](crate::Nurbs) surface, as its knots count them.
+/// A closed curve in the parameters of a [`Nurbs`](crate::Nurbs) surface, in the units of its
+/// knots.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TrimLoop {
     /// A polygon; the last point joins the first.
     Polygon(Vec<[f64; 2]>),
     /// Cubic Bezier curves, four points each; each begins where the one before it ends.
     Bezier(Vec<[f64; 2]>),
-    /// A curve of rational B-splines, whose end is its start.
+    /// A closed rational B-spline curve.
     Nurbs {
         /// The degree, 1 to 9.
         degree: usize,
         /// The points and their weights: `[u, v, w]`, with coordinates that are not multiplied by
         /// the weight.
         points: Vec<[f64; 3]>,
-        /// As many knots as points, and the degree and one more. Empty: uniform, with ends at the
-        /// outer points.
+        /// The knots: the number of points plus the degree plus one. Empty: uniform, with ends at
+        /// the outer points.
         knots: Vec<f64>,
     },
 }
@@ -57,9 +58,9 @@ struct Stretch {
 #[derive(Clone, Debug)]
 struct Ring {
     pieces: Vec<Piece>,
-    /// Pieces on the border of the domain: they cut nothing off.
+    /// For each piece, the side of the domain on which it lies: such a piece cuts nothing off.
     border: Vec<Option<Border>>,
-    /// The first is the whole loop.
+    /// The tree of stretches; the first is the whole loop.
     stretches: Vec<Stretch>,
     area: f64,
 }
@@ -76,7 +77,7 @@ enum Border {
 pub(crate) struct Trims {
     rings: Vec<Ring>,
     domain: Box2,
-    /// Whether what is in no loop stays: then the outermost loops are holes.
+    /// Whether points in no loop are kept: then the outermost loops are holes.
     outside: bool,
 }
 
@@ -163,7 +164,7 @@ enum Pass {
     Near,
 }
 
-/// What is known of a curve in a box whose ends have these `v`.
+/// The crossings of a curve that lies in a box and whose ends have these `v`.
 fn passes(bounds: &Box2, [start, end]: [f64; 2], p: [f64; 2], around: &Box2) -> Pass {
     if bounds.meets(around) {
         return Pass::Near;
@@ -173,8 +174,8 @@ fn passes(bounds: &Box2, [start, end]: [f64; 2], p: [f64; 2], around: &Box2) -> 
 }
 
 impl Trims {
-    /// The trims of a surface whose parameters go from `low` to `high`; the number of the loop that is
-    /// wrong, from 1, and why.
+    /// The trims of a surface whose parameters go from `low` to `high`. The error has the number of
+    /// the wrong loop, from 1.
     pub(super) fn new(loops: &[TrimLoop], [low, high]: [[f64; 2]; 2]) -> Result<Self, (usize, TrimError)> {
         let domain = Box2 { low, high };
         let mut rings = Vec::new();
@@ -199,7 +200,7 @@ impl Trims {
         self.rings.iter().map(|ring| &ring.pieces[..])
     }
 
-    /// Whether what is in no loop stays.
+    /// Whether points in no loop are kept.
     pub(super) fn is_open(&self) -> bool {
         self.outside
     }
@@ -210,8 +211,8 @@ impl Trims {
         (0..2).any(|k| uv[k] + radius[k] < low[k] || uv[k] - radius[k] > high[k])
     }
 
-    /// The distance of parameters from the edge of what stays, where a step `(u, v)` has the squared
-    /// length `a u² + 2 b u v + c v²`.
+    /// The distance of parameters from the edge of the kept part, where a step `(u, v)` has the
+    /// squared length `a u² + 2 b u v + c v²`.
     pub(super) fn distance(&self, uv: [f64; 2], [a, b, c]: [f64; 3]) -> f64 {
         let length = |p: [f64; 2]| {
             let [u, v] = [p[0] - uv[0], p[1] - uv[1]];
@@ -225,13 +226,14 @@ impl Trims {
         pieces.map(|piece| piece.nearest(length).1).fold(f64::INFINITY, f64::min).max(0.0).sqrt()
     }
 
-    /// Whether parameters within `radius` of a point stay: `None` if some may and some may not.
+    /// Whether parameters within `radius` of a point are kept; `None` if only some may be.
     pub(super) fn keeps(&self, uv: [f64; 2], radius: [f64; 2]) -> Option<bool> {
         let around = Box2 {
             low: [0, 1].map(|k: usize| uv[k] - radius[k]),
             high: [0, 1].map(|k: usize| uv[k] + radius[k]),
         };
-        // What is beyond the domain is on its border; a line along its upper side crosses nothing.
+        // A point beyond the domain is moved to its border; a line along its upper side crosses
+        // nothing.
         let Box2 { low, high } = self.domain;
         let p = [uv[0].clamp(low[0], high[0]), uv[1].min(high[1].next_down()).max(low[1])];
         let around = around.with(p);
@@ -253,7 +255,7 @@ fn pieces(given: &TrimLoop) -> Result<Vec<Piece>, TrimError> {
             }
             let next = |i: usize| points[(i + 1) % points.len()];
             let all = (0..points.len()).map(|i| (points[i], next(i)));
-            // The first point may be there again at the end.
+            // The first point may be repeated at the end.
             all.filter(|(a, b)| a != b).map(|(a, b)| Piece::line(a, b)).collect()
         }
         TrimLoop::Bezier(points) => {

@@ -67,7 +67,7 @@ pub use spline::{Bezier, Spline};
 pub struct CurvedPrism {
     pieces: Vec<ProfileCurve>,
     /// For each piece, whether the inside is to its left, with x to the right and z up; `None` if
-    /// the outlines may meet themselves or each other, so that it may be on either side.
+    /// the outlines may meet themselves or each other, so that no side is certain.
     inside_is_left: Option<Vec<bool>>,
     /// The bottom and the top.
     heights: [f64; 2],
@@ -86,14 +86,14 @@ pub struct CurvedPrism {
 const LARGEST: f64 = durer_math::scale::pow2(200);
 
 impl CurvedPrism {
-    /// The prism between the heights `bottom` and `top` (in any order) within these outlines. A
-    /// piece begins where the one before it ends, the first one where the last one ends.
+    /// The prism between the heights `bottom` and `top` (in any order) within these outlines. Each
+    /// piece must begin where the one before it ends, the first one where the last one ends.
     pub fn linear(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Linear)
     }
 
-    /// The conic prism, whose outlines at the height `y` are `y` times as large: a cone with its
-    /// apex at the origin, the part of one between the heights, or two that meet.
+    /// The conic prism, whose outlines at the height `y` are scaled by `y`: a cone with its apex at
+    /// the origin, a frustum, or two cones that meet.
     pub fn conic(outlines: &[impl AsRef<[Bezier]>], bottom: f64, top: f64) -> Result<Self, PrismError> {
         Self::new(outlines, bottom, top, Sweep::Conic)
     }
@@ -174,7 +174,7 @@ impl CurvedPrism {
         Some(left)
     }
 
-    /// The walls alone.
+    /// Removes the caps.
     #[must_use]
     pub fn without_caps(mut self) -> Self {
         self.open = true;
@@ -195,14 +195,14 @@ impl CurvedPrism {
         }
     }
 
-    /// Whether the sweep ends at the top, or at the bottom, in its apex instead of a cap.
+    /// Whether the sweep ends at the top (or bottom) in its apex instead of a cap.
     #[inline(always)]
     fn has_tip(&self, top: bool) -> bool {
         self.view.sweep == Sweep::Conic && self.heights[usize::from(top)] == 0.0
     }
 }
 
-/// The outlines without pieces that are single points.
+/// Checks the outlines, and removes pieces that are single points.
 fn closed(outlines: &[impl AsRef<[Bezier]>]) -> Result<Vec<Vec<Bezier>>, PrismError> {
     if outlines.is_empty() {
         return Err(PrismError::Empty);
@@ -236,8 +236,8 @@ impl Surface for CurvedPrism {
         }
     }
 
-    /// Texture coordinates: on the walls once round all outlines, piece by piece, and from the
-    /// bottom to the top; on the caps lengths.
+    /// Texture coordinates: on the walls from 0 to 1 round all outlines, piece by piece, and from
+    /// the bottom to the top; on the caps lengths.
     #[inline(never)]
     fn resolve(&self, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {
         if root.face == 0 {

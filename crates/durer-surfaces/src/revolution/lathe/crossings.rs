@@ -46,7 +46,8 @@ pub(super) struct Pass<'a, 'r> {
 /// A bracket wider than this, relative to the lathe's size or to `t`, is computed again.
 const ENOUGH: f64 = 128.0 * U;
 
-/// The value of an equation in EFloat, in a form that rounds little: for slanted rays `P / d_y²`.
+/// The value of an equation with its error, in a form with few roundings: for slanted rays
+/// `P / d_y²`.
 #[inline(always)]
 fn value<T: Word>(
     equation: Equation,
@@ -67,7 +68,7 @@ fn value<T: Word>(
     }
 }
 
-/// The same and its derivative in `w`, rounded.
+/// The value of an equation and its derivative in `w`, rounded.
 #[inline(always)]
 fn rough_value(equation: Equation, ray: &RingRay<f64>, piece: &Piece, w: f64) -> (f64, f64) {
     let [[r, y], [r1, y1], _] = piece.slopes(w);

@@ -23,7 +23,7 @@ use crate::planar::{AlongRay, Line, exact_line, with_denominator_near_one};
 use durer_math::{Dd, Dyadic, EFloat, Ring, U};
 use durer_roots::polynomial::Along;
 
-/// Pays for results below the normal range.
+/// Covers results below the normal range.
 const FLOOR: f64 = durer_math::scale::pow2(-900);
 
 /// The factors of a ray's polynomial.

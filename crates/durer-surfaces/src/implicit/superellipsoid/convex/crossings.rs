@@ -10,17 +10,18 @@ use arrayvec::ArrayVec;
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Point3, RaySide, Vec3};
 
-/// Half the width of a cube that holds the solid with room for all rounding of a ray that is known
-/// well enough.
+/// Half the width of a cube that holds the solid with a margin for all rounding, for a ray with
+/// errors below [`KNOWN`].
 const HALF: f64 = 1.0 + 1.0 / 64.0;
-/// A ray is, if its points are off by less than this.
+/// The largest error of a ray's points with which it is tested here.
 const KNOWN: f64 = pow2(-12);
-/// So many passes at most are spent on a ray that comes near, before the tape is asked.
+/// The most passes for a ray that comes near, before the tape decides.
 const MOST_PASSES: usize = 8;
-/// So many at most on a crossing. Mostly it is two or three; each other one divides by nine.
+/// The most steps for a crossing. Mostly it takes two or three; every other step divides the width
+/// by nine.
 const MOST_STEPS: usize = 40;
 
-/// A place on the line: the gauge and its slope there.
+/// A point of the line, with the gauge and its slope there.
 #[derive(Clone, Copy, Debug)]
 struct GaugeSample {
     s: f64,
@@ -31,11 +32,11 @@ struct GaugeSample {
 /// The answer for a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::implicit) enum Answer {
-    /// All roots were shown.
+    /// All roots were passed on.
     All,
-    /// It is outside but for what is between these two places, which cannot be told.
+    /// It is outside except between these two `s`, where rounding leaves it open.
     Between(f64, f64),
-    /// It cannot be told.
+    /// Rounding leaves it open.
     Open,
 }
 
@@ -43,7 +44,7 @@ pub(in crate::implicit) enum Answer {
 enum StretchClass {
     /// It misses.
     Misses,
-    /// Outside, inside (the first and the last such place that was seen), outside.
+    /// It is outside, inside (the first and the last such sample), outside.
     Meets([GaugeSample; 4]),
     /// Between two places beyond which it is outside, rounding leaves it open.
     Grazes(GaugeSample, GaugeSample),
@@ -57,15 +58,14 @@ struct Along<'a> {
     isa: Isa,
     o: Vec3<F8>,
     d: Vec3<F8>,
-    /// Bound on the error of a value near 1 at a place, that of the place included.
+    /// Bound on the error of a value near 1, including the error of the point.
     noise: f64,
-    /// The same, of a place alone.
+    /// Bound on the error of the point alone.
     off: f64,
 }
 
 impl Gauge {
-    /// Shows all roots in the ray's range to `sink`, ascending, if it can be told which there are;
-    /// else none.
+    /// Passes all roots in the ray's range to `sink`, ascending, if all are certain; else none.
     pub(in crate::implicit) fn roots(&self, ray: &LocalRay<'_>, sink: &mut dyn Sink) -> Answer {
         if ray.passes_by(Point3::ORIGIN, self.reach) {
             return Answer::All;
@@ -106,7 +106,7 @@ impl Gauge {
         };
         match along.classify(a, b) {
             StretchClass::Misses => Answer::All,
-            // Which side a ray starts on that was spawned here is told by the tape.
+            // For a ray that was spawned here, the tape decides on which side it starts.
             StretchClass::Grazes(left, right) if at.spawned().is_none() => Answer::Between(left.s, right.s),
             StretchClass::Open | StretchClass::Grazes(..) => Answer::Open,
             StretchClass::Meets(places) => {
@@ -121,7 +121,7 @@ impl Gauge {
 }
 
 impl Along<'_> {
-    /// The gauge at eight places.
+    /// The gauge at eight points.
     #[inline(always)]
     fn nodes(&self, s: &[f64; 8]) -> [GaugeSample; 8] {
         let at = F8(*s);
@@ -132,7 +132,7 @@ impl Along<'_> {
         core::array::from_fn(|i| GaugeSample { s: s[i], g: sample.value.0[i], slope: slope.0[i] })
     }
 
-    /// Whether a place is outside, if that is certain.
+    /// Whether a sample is outside; `None` if uncertain.
     #[inline(always)]
     fn side(&self, node: &GaugeSample) -> Option<bool> {
         if node.g - 1.0 > self.noise {
@@ -144,8 +144,8 @@ impl Along<'_> {
         }
     }
 
-    /// Looks along the line from `a` to `b`, beyond which it is outside, ever closer to where it is
-    /// nearest.
+    /// Classifies the line from `a` to `b`, beyond which it is outside. The samples converge to the
+    /// gauge's minimum.
     fn classify(&self, a: f64, b: f64) -> StretchClass {
         let step = (b - a) / 7.0;
         let first = self.nodes(&core::array::from_fn(|i| if i == 7 { b } else { a + step * i as f64 }));
@@ -172,7 +172,7 @@ impl Along<'_> {
             if let Some((first, last)) = inside {
                 return StretchClass::Meets([left, first, last, right]);
             }
-            // No place inside: `left` is the last outside, and says nothing.
+            // No sample is inside: `left` is the last one outside, and decides nothing.
             let turn = seen.windows(2).find(|pair| pair[1].slope >= 0.0);
             let Some(&[x, y]) = turn else {
                 let Some(last) = seen.last() else { return StretchClass::Open };
@@ -199,9 +199,9 @@ impl Along<'_> {
         turns.map_or(StretchClass::Open, |turns| self.grazed(first[0], first[7], turns))
     }
 
-    /// What rounding leaves open about where the gauge is least: all that is beyond places where it
-    /// is outside and certainly goes up is outside, too. The places are brought as near to each
-    /// other as they can be.
+    /// The stretch around the gauge's minimum that rounding leaves open. Beyond a sample that is
+    /// outside, where the gauge certainly rises, everything is outside, too. Narrows the stretch as
+    /// far as possible.
     #[cold]
     fn grazed(
         &self,
@@ -240,17 +240,17 @@ impl Along<'_> {
         StretchClass::Grazes(left, right)
     }
 
-    /// The gauge is least at one end of what was looked at: that end says whether it ever is below 1.
+    /// The gauge is least at one end of the stretch: that end decides whether it falls below 1.
     fn beyond(&self, end: &GaugeSample, length: f64) -> StretchClass {
         let slack = 8.0 * self.gauge.turn * length + self.noise + 2.0 * self.off + VALUE * end.g;
         if end.g - 1.0 > slack { StretchClass::Misses } else { StretchClass::Open }
     }
 
-    /// Whether the tangents at two places, falling and rising, meet above 1.
+    /// Whether the tangents at two samples, falling and rising, meet above 1.
     ///
-    /// A tangent's value on the exact line is off by the value's own error, that of the place twice
-    /// (there and where it is read), and the slope's, at most `8` times the gradient's, for
-    /// directions of size below 2.
+    /// A tangent's value on the exact line has the value's own error, the point's twice (there and
+    /// where it is evaluated), and the slope's, at most `8` times the gradient's for directions of
+    /// size below 2.
     fn misses(&self, x: &GaugeSample, y: &GaugeSample) -> bool {
         let sure = 8.0 * self.gauge.turn;
         if !(-x.slope > sure && y.slope > sure) {
@@ -263,7 +263,7 @@ impl Along<'_> {
         least - 1.0 > slack
     }
 
-    /// Shows the crossings between outside, inside and outside, as far as they are in the range.
+    /// Passes on the crossings between outside, inside and outside that are in the range.
     fn show(
         &self,
         at: &CentredRay<'_>,
@@ -274,7 +274,7 @@ impl Along<'_> {
     ) -> bool {
         let (mut enters, mut leaves) = (first.s >= from && left.s <= to, right.s >= from && last.s <= to);
         if let Some((side, 0, start)) = at.spawned() {
-            // A ray that starts outside starts before what is inside, or behind it.
+            // A ray that starts outside starts before the inside part, or behind it.
             match side {
                 RaySide::Back => enters = false,
                 RaySide::Front if start.hi() < last.s => {}
@@ -284,7 +284,7 @@ impl Along<'_> {
         }
         let fine = reach * pow2(-50);
         let widest = if at.local().rough { PREVIEW_WIDTH * reach * 0.25 } else { fine };
-        // The crossing in ascending order; as well as it can be told where the range may end in it.
+        // The crossing, ascending; as narrow as possible if the range may end in its bracket.
         let refined = |out: &GaugeSample, inn: &GaugeSample| {
             let ascending = |(s, a, b): (f64, f64, f64)| (s, a.min(b), a.max(b));
             let (s, lo, hi) = ascending(self.refined(*out, *inn, widest));
@@ -312,8 +312,8 @@ impl Along<'_> {
         true
     }
 
-    /// The crossing between a place outside and one inside: where it is about, and two such places,
-    /// nearer to each other.
+    /// The crossing between a sample outside and one inside: its approximate place, and two such
+    /// samples nearer to each other.
     fn refined(&self, mut out: GaugeSample, mut inn: GaugeSample, widest: f64) -> (f64, f64, f64) {
         let mut even = false;
         for _ in 0..MOST_STEPS {
@@ -352,21 +352,21 @@ impl Along<'_> {
     }
 }
 
-/// About where the gauge is 1 between a place outside and one inside, and how far apart the
-/// tangents and the chord put it.
+/// The approximate place where the gauge is 1 between a sample outside and one inside, and the
+/// distance between the estimates by tangents and by the chord.
 fn guess(out: &GaugeSample, inn: &GaugeSample) -> (f64, f64) {
     let width = inn.s - out.s;
     let share = (out.g - 1.0) / (out.g - inn.g);
     let chord = share * width;
-    // Convexity puts the crossing between the later of the two tangents' and the chord's, as long
-    // as rounding does not count.
+    // By convexity the crossing is between the later of the two tangents' estimates and the
+    // chord's, up to rounding.
     let before = |x: f64| if x / width > 0.0 && x.abs() <= chord.abs() { x } else { 0.0 };
     let falls = inn.slope / out.slope > 0.0;
     let (first, second) = ((1.0 - out.g) / out.slope, width + (1.0 - inn.g) / inn.slope);
     let (first, second) = (before(first), if falls { before(second) } else { 0.0 });
     let tangent = if first.abs() > second.abs() { first } else { second };
-    // The cubic with the values and slopes of the inverse at both places (C. Hermite). If it does
-    // not go there, there is an edge between, and a tangent is the surface's.
+    // The cubic with the values and slopes of the inverse at both samples (C. Hermite). If it
+    // leaves that interval, there is an edge between, and a tangent describes the surface.
     let (x, rest) = (share, 1.0 - share);
     let run = inn.g - out.g;
     let cubic = width * x * x * (3.0 - 2.0 * x) + x * rest * run * (rest / out.slope - x / inn.slope);

@@ -1,4 +1,5 @@
-//! The point of a root: on the surface, how far from it, and how the surface bends there.
+//! The point of a root: a point near the surface, its distance from it, and the surface's curvature
+//! there.
 
 use super::Gauge;
 use super::gauge::{Factors, REST, Sample, VALUE};
@@ -8,17 +9,17 @@ use crate::{LocalPoint, Side};
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, Point3, U, Vec3};
 
-/// How far below the point the solid is looked at.
+/// The depths below the point at which the solid is sampled.
 const DEPTHS: [f64; 8] = [0.25, pow2(-4), pow2(-6), pow2(-8), pow2(-10), pow2(-12), pow2(-16), pow2(-20)];
 
-/// The point, on each plane between octants that is no farther than `fold`: the surface may have an
-/// edge or a tip there.
+/// The point, moved onto each plane between octants within `fold`: the surface may have an edge or
+/// a tip there.
 fn unfolded(p: Point3, fold: f64) -> Point3 {
     p.map(|x| if x.abs() <= fold { 0.0 } else { x })
 }
 
-/// The gradient `m` at `p` without the parts that have no sign there. The gauge is even in each
-/// coordinate: where one is zero, zero is a fair part, and `m.p` does not change.
+/// The gradient `m` at `p` without the components whose sign is undefined there. The gauge is even
+/// in each coordinate: where one is zero, zero is a valid component, and `m.p` does not change.
 fn level(p: Point3, m: Vec3) -> Vec3 {
     Vec3::from([0, 1, 2].map(|i| if p[i] == 0.0 { 0.0 } else { m[i] }))
 }
@@ -39,11 +40,12 @@ impl Gauge {
     }
 
     /// The point next to `p0`, at most `reach` away, in which the normal there meets the surface;
-    /// `None` where f64 cannot say. Planes between octants attract within `fold`.
+    /// `None` if f64 leaves it open. A point within `fold` of a plane between octants is moved onto
+    /// it.
     ///
     /// With the gradient `m` at `p` the gauge is at least `m.y` everywhere: outward, it exceeds 1
-    /// as soon as `m.y` does. Inward, it is at most what the chord from `p` to a point further down
-    /// says, where it is known.
+    /// as soon as `m.y` does. Inward, it is at most the value of the chord from `p` to a point
+    /// further down where it is known.
     pub(in crate::implicit) fn foot(&self, p0: Point3, (fold, reach): (f64, f64)) -> Option<Foot> {
         let isa = Isa::detect();
         let mut sample = Sample::new();

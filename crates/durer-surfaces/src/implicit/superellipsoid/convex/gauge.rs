@@ -1,8 +1,8 @@
-//! The gauge of a convex superellipsoid and its gradient at eight points, and how far they are from
-//! the true ones.
+//! The gauge of a convex superellipsoid and its gradient at eight points, with bounds on their
+//! errors.
 //!
-//! All is worked out from binary logarithms `a`, `b` of `max(|x|, |y|)`, `min(|x|, |y|)` and `c` of
-//! `|z|`:
+//! Everything is computed from the binary logarithms `a`, `b` of `max(|x|, |y|)`, `min(|x|, |y|)`
+//! and `c` of `|z|`:
 //!
 //! ```text
 //!   w = 2^(p (b - a)),  log N = a + log(1 + w) / p;   v = 2^(q (low - high)) of log N and c,  log G = high + log(1 + v) / q
@@ -10,18 +10,19 @@
 //!   d log N = (d log max + w d log min) / (1 + w), likewise for G: the gradient's parts are G times such shares, over the coordinate
 //! ```
 //!
-//! **The value.** Logarithms err by `8 u` of themselves, powers by `4 u`, sums `1 + w` by `u`. An
-//! error of the exponent `p (b - a)` counts in `log N` with the share of `w`, over `p`:
-//! `w |b - a| <= 0.54 / p`, so what is small weighs as little as it errs much. With `1/4 <= G <= 4`
-//! the larger of two logarithms is at most 3, `log N` errs by `125 u` (by `80 u` near the surface)
-//! and `log G` by `34 u` more: [`VALUE`] bounds what that makes of `G`. A coordinate below
-//! [`LEAST`] is taken for that, which moves the point by less than any rounding.
+//! **The value.** Logarithms have relative errors of `8 u`, powers of `4 u`, sums `1 + w` of `u`.
+//! An error of the exponent `p (b - a)` enters `log N` times the share of `w`, over `p`:
+//! `w |b - a| <= 0.54 / p`, so the larger the error of a small term, the smaller its weight. With
+//! `1/4 <= G <= 4` the larger of two logarithms is at most 3, the error of `log N` is `125 u`
+//! (`80 u` near the surface) and that of `log G` is `34 u` more: [`VALUE`] bounds the resulting
+//! error of `G`. A coordinate below [`LEAST`] is replaced by it, which moves the point by less than
+//! any rounding.
 //!
-//! **The gradient.** With `|log| <= 66` each exponent errs by at most `p 1222 u` or `q 1972 u`, a
-//! share by `ln 2` times that: the parts are known within `1024 p u + 1536 q u + 2048 u` of
-//! themselves. For a true gradient `n` the dual norm is 1, and it is absolute: it sees sizes only.
-//! So parts within `ε` of themselves have a dual norm of at most `1 + ε`, and
-//! `G(y) >= n.y / (1 + ε)` for them.
+//! **The gradient.** With `|log| <= 66` the error of each exponent is at most `p 1222 u` or
+//! `q 1972 u`, that of a share `ln 2` times that: the components have relative errors of at most
+//! `1024 p u + 1536 q u + 2048 u`. The dual norm of a true gradient `n` is 1, and depends on the
+//! components' magnitudes only. So with relative errors of at most `ε` the dual norm is at most
+//! `1 + ε`, and `G(y) >= n.y / (1 + ε)`.
 
 use durer_formula::lane_logs::{exp2, log2};
 use durer_math::scale::pow2;
@@ -31,17 +32,17 @@ use durer_math::{F8, Isa, U, Vec3, elementary};
 pub(super) const VALUE: f64 = 128.0 * U;
 /// A coordinate's least size.
 const LEAST: f64 = pow2(-64);
-/// A bound of the error by that and by one rounding of each coordinate of a point.
+/// A bound on the error from [`LEAST`] and from one rounding of each coordinate of a point.
 pub(super) const REST: f64 = 8.0 * U;
-/// Lower exponents, whose powers count for nothing, are taken for this.
+/// Lower exponents are replaced by this; their powers are negligible.
 const LOWEST: f64 = -1000.0;
-/// Thinner spikes than those of this exponent are left to the tape: the bound of the value grows
-/// with it (`../concave.rs`).
+/// Solids with a larger exponent, and thinner spikes, are left to the tape: the bound on the
+/// value's error grows with it (`../concave.rs`).
 const MOST_DENTED: f64 = 8.0;
-/// Sharper exponents than this make a box, and are left to the tape.
+/// Solids with smaller exponents are nearly boxes, and are left to the tape.
 const SHARPEST: f64 = 1.0 / 128.0;
 
-/// The gauge of the superellipsoid of the exponents `e` and `n`, and what follows from them.
+/// The gauge of the superellipsoid with the exponents `e` and `n`, with derived constants.
 #[derive(Clone, Debug)]
 pub(in crate::implicit) struct Gauge {
     /// `2/e` and `2/n`, rounded, and one over those, exactly.
@@ -49,7 +50,7 @@ pub(in crate::implicit) struct Gauge {
     q: f64,
     over_p: f64,
     over_q: f64,
-    /// Bound on the error of a gradient's part, relative to it.
+    /// Bound on the relative error of a gradient's component.
     pub(super) turn: f64,
     /// A ball of this radius holds the solid.
     pub(super) reach: f64,
@@ -64,7 +65,7 @@ pub(in crate::implicit) struct Sample {
     pub(in crate::implicit) gradient: Vec3<F8>,
 }
 
-/// The gradient's parts as products: `∂N/∂x ∂G/∂N`, `∂N/∂y ∂G/∂N` and `∂G/∂z`.
+/// The gradient's components as products: `∂N/∂x ∂G/∂N`, `∂N/∂y ∂G/∂N` and `∂G/∂z`.
 #[derive(Debug)]
 pub(super) struct Factors {
     pub(super) x: F8,
@@ -73,34 +74,35 @@ pub(super) struct Factors {
     pub(super) z: F8,
 }
 
-/// The constants of both.
+/// The logarithms of the gauge, and the shares from which its gradient follows.
 struct Shares {
     /// The logarithms of `N` and of `G`.
     across: F8,
     whole: F8,
     x: F8,
     y: F8,
-    /// Shares of `N` and `z` in `G`.
+    /// The shares of `N` and `z` in `G`.
     outer: F8,
     z: F8,
 }
 
 impl Gauge {
-    /// The gauge; `None` where the solid has dents, or edges too sharp for f64.
+    /// The gauge; `None` if the solid has dents, or edges too sharp for f64.
     pub(in crate::implicit) fn new(e: f64, n: f64) -> Option<Self> {
         if !(SHARPEST..=2.0).contains(&e) || !(SHARPEST..=2.0).contains(&n) {
             return None;
         }
         let (p, q) = (2.0 / e, 2.0 / n);
-        // The Euclidean norm of two numbers is at most so many times their p norm.
+        // The binary logarithm of the largest ratio of the Euclidean norm of two numbers to their p
+        // norm.
         let excess = |over: f64| (0.5 - over).max(0.0);
         let reach = elementary::exp2(excess(0.5 * e) + excess(0.5 * n)) * (1.0 + pow2(-40));
         let turn = (1024.0 * p + 1536.0 * q + 2048.0) * U;
         Some(Self { p, q, over_p: 0.5 * e, over_q: 0.5 * n, turn, reach, least: LEAST })
     }
 
-    /// The same function for exponents that make dents between all axes, if these are such: no
-    /// norm, and without a bound for gradients (`../concave.rs`).
+    /// The same function if the exponents make dents between all axes: not a norm, and without a
+    /// bound on gradients (`../concave.rs`).
     pub(in crate::implicit) fn of_dents(e: f64, n: f64) -> Option<Self> {
         let with_dents = 2.0..=MOST_DENTED;
         let gauge = Self {
@@ -183,7 +185,7 @@ impl Gauge {
         );
     }
 
-    /// The factors of the gradient's parts at eight points, without signs.
+    /// The factors of the gradient's components at eight points, without signs.
     #[inline(never)]
     pub(super) fn factors(&self, isa: Isa, x: &Vec3<F8>, out: &mut Factors) {
         isa.run_in_lanes(

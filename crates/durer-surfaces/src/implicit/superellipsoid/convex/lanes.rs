@@ -1,7 +1,7 @@
 //! Convex superellipsoids in packets of eight rays.
 //!
-//! Of each of eight rays two places are looked at, `a` and `r` behind it (`mod.rs` says why that is
-//! enough):
+//! Each of eight rays is sampled at two parameters, `a` and `r` behind it (see `mod.rs` for why
+//! that suffices):
 //!
 //! ```text
 //!   outside, and g rises at a              it is outside from there on
@@ -16,22 +16,22 @@ use crate::packet::{ImplicitKernel, Line8, LineExtent8, Segment8, Skin, Slant, V
 use durer_math::scale::pow2;
 use durer_math::{F8, Isa, M8, U, Vec3};
 
-/// A ball that is larger by this holds the solid with room for all rounding of a line that is known
-/// well enough.
+/// A ball enlarged by this holds the solid with a margin for all rounding, for a line with errors
+/// below [`KNOWN`].
 const ROOM: f64 = 1.0 / 64.0;
-/// A line is, if its points are off by less than this.
+/// The largest error of a line's points with which it is classified.
 const KNOWN: f64 = pow2(-12);
 const NEVER: F8 = F8::splat(f64::INFINITY);
 
-/// The gauge and its slope at a place of each line.
+/// The gauge and its slope at a point of each line.
 #[derive(Clone, Copy)]
 struct Node8 {
     g: F8,
     slope: F8,
 }
 
-/// What a place and a point of a line err by, as values of the gauge: of a vector that is at most
-/// the sum of its sizes.
+/// The errors of a sample and of a point of a line, as values of the gauge: for a vector at most
+/// the sum of its components' magnitudes.
 #[inline(always)]
 fn off(line: &Line8, far: F8) -> F8 {
     line.error(far) * (3.0 * (1.0 + 1.0 / 1024.0)) + REST

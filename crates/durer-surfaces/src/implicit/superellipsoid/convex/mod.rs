@@ -7,17 +7,17 @@
 //! ```
 //!
 //! For `p >= 1` the power sum `N` is a norm (H. Minkowski, *Geometrie der Zahlen*, 1896), and `G`
-//! is the same of `N` and `|z|`, which rises with both: a norm too, the gauge of the solid. So it
-//! is convex, and along a ray `g(s) = G(o + s d)` is convex:
+//! is such a sum of `N` and `|z|`, which rises with both: a norm, too, the gauge of the solid. So
+//! it is convex, and along a ray `g(s) = G(o + s d)` is convex:
 //!
 //! - Where `g > 1` at `a`, `g < 1` at `b > a`, there is exactly one crossing between, and none
-//!   before `a`: what is below 1 is an interval.
-//! - Two tangents, falling at one place and rising at a later one, bound `g` from below by the
-//!   value where they meet: above 1, the ray misses.
+//!   before `a`: the points below 1 form an interval.
+//! - Two tangents, falling at one point and rising at a later one, bound `g` from below by the
+//!   value where they meet: if that is above 1, the ray misses.
 //!
-//! Both ask for signs of `g - 1` and for tangents at a few places, eight in one go, and nothing is
-//! said that the bounds of their errors (`gauge.rs`) do not bear out. A ray for which that is not
-//! enough asks the tape: one that touches, mostly, of the short stretch that is left.
+//! Both need signs of `g - 1` and tangents at a few points, eight at a time, and every conclusion
+//! includes the bounds of their errors (`gauge.rs`). If that does not suffice, the tape decides:
+//! mostly for a ray that touches, on the short remaining stretch.
 
 mod crossings;
 mod foot;
