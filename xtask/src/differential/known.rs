@@ -16,12 +16,13 @@ pub(super) struct Reworded {
 }
 
 /// All entries of this kind.
-pub(super) const REWORDED: [Reworded; 5] = [
+pub(super) const REWORDED: [Reworded; 6] = [
     Reworded { entry: "`interior_texture` stays inside.", reworded: with_polys },
     Reworded { entry: "A mesh in a clipped union", reworded: without_hierarchy },
     Reworded { entry: "Superellipsoids keep their far side.", reworded: with_isosurfaces },
     Reworded { entry: "A disc has no inside.", reworded: with_polygons },
     Reworded { entry: "Surfaces of revolution have no false shadows.", reworded: with_sturm },
+    Reworded { entry: "A pigment in place of a blob's own", reworded: with_patterned_blobs },
 ];
 
 /// One entry of docs/differences.md.
@@ -128,6 +129,24 @@ fn with_sturm(scene: &Scene) -> Option<Scene> {
         let (before, after) = open.split_at(open.len() - points.len() + last + 1);
         Some(format!("{before} sturm{after}"))
     })
+}
+
+/// With a pattern of one colour for each plain colour of a blob.
+fn with_patterned_blobs(scene: &Scene) -> Option<Scene> {
+    let mut other = scene.clone();
+    for node in other.declared.iter_mut().chain(&mut other.objects) {
+        node.each(&mut |node| {
+            let modifiers = if node.open.contains("blob {") { node.said.as_mut_slice() } else { &mut [] };
+            for modifier in modifiers {
+                let inner = modifier.open.strip_prefix("pigment {").and_then(|rest| rest.strip_suffix('}'));
+                if let Some(colour) = inner.filter(|inner| inner.trim_start().starts_with("rgb")) {
+                    modifier.open =
+                        format!("pigment {{ gradient x color_map {{ [0 {colour}] [1 {colour}] }} }}");
+                }
+            }
+        });
+    }
+    (other != *scene).then_some(other)
 }
 
 /// With a square for each disc, clipped by a ball with the disc's centre and radius.
