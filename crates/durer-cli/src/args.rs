@@ -233,11 +233,14 @@ pub(crate) struct ViewArgs {
     pub(crate) open: bool,
 }
 
-/// `N` numbers with commas between them.
-fn numbers<const N: usize, T: std::str::FromStr>(text: &str) -> Result<[T; N], String> {
+/// What [`numbers`] of type `u32` must be.
+const WHOLE: &str = "a whole number from 0 to 4294967295";
+
+/// `N` numbers with commas between them, each of which must be `what`.
+fn numbers<const N: usize, T: std::str::FromStr>(text: &str, what: &str) -> Result<[T; N], String> {
     let parsed: Vec<T> = text
         .split(',')
-        .map(|word| word.trim().parse().map_err(|_| format!("'{word}' is not a number that fits here")))
+        .map(|word| word.trim().parse().map_err(|_| format!("'{word}' is not {what}")))
         .collect::<Result<_, _>>()?;
     let count = parsed.len();
     parsed.try_into().map_err(|_| format!("expected {N} numbers with commas between them, got {count}"))
@@ -275,11 +278,11 @@ fn bits(text: &str) -> Result<u8, String> {
 }
 
 fn pixel(text: &str) -> Result<(u32, u32), String> {
-    numbers::<2, u32>(text).map(|[x, y]| (x, y))
+    numbers::<2, u32>(text, WHOLE).map(|[x, y]| (x, y))
 }
 
 fn region(text: &str) -> Result<Region, String> {
-    let [x0, y0, x1, y1] = numbers::<4, u32>(text)?;
+    let [x0, y0, x1, y1] = numbers::<4, u32>(text, WHOLE)?;
     if x0 >= x1 || y0 >= y1 {
         return Err("the region is empty: it needs X0 < X1 and Y0 < Y1".to_owned());
     }
@@ -287,7 +290,7 @@ fn region(text: &str) -> Result<Region, String> {
 }
 
 fn ray(text: &str) -> Result<Ray, String> {
-    let [ox, oy, oz, dx, dy, dz] = numbers::<6, f64>(text)?;
+    let [ox, oy, oz, dx, dy, dz] = numbers::<6, f64>(text, "a number")?;
     let ray = Ray::new(Point3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
     if ray.is_valid() {
         Ok(ray)

@@ -26,7 +26,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     println!("  lights      {}", scene.lights.len());
     println!(
         "  camera      {}",
-        if scene.camera.is_some() { "yes" } else { "none: rays can be traced, pictures need one" }
+        if scene.camera.is_some() { "yes" } else { "none: pictures need one, traced rays do not" }
     );
     let learned = crate::noise::chosen(args.scene.noise)?;
     let noise =
@@ -55,7 +55,7 @@ fn report(faces: usize, topology: &Topology) {
     println!("  mesh        {faces} faces, {}", if is_closed { "closed: a solid" } else { "open: a sheet" });
     let lines = [
         (open_edges, "open edges"),
-        (turned_edges, "edges between faces that are turned against each other"),
+        (turned_edges, "edges between two faces of opposite orientation"),
         (shared_edges, "edges of more than two faces"),
         (degenerate, "faces without area or with coordinates that are not finite, left out"),
         (duplicates, "faces over the same corners as another"),

@@ -138,7 +138,7 @@ impl Loaded {
             };
             // A device or a link would lead elsewhere.
             if std::fs::symlink_metadata(&file.path).is_ok_and(|about| !about.is_file()) {
-                return Err(failed(&"it is there, and is not a regular file"));
+                return Err(failed(&"the path exists and is not a regular file"));
             }
             std::fs::write(&file.path, &file.text).map_err(|why| failed(&why))?;
         }

@@ -21,7 +21,8 @@ const LAST: usize = 255;
 const SEARCHED: i64 = 4096;
 
 pub(crate) fn run(args: &LearnNoiseArgs) -> Result<(), Failure> {
-    let path = file().ok_or_else(|| Failure::Input("error: there is no folder for a user's data".into()))?;
+    let path = file()
+        .ok_or_else(|| Failure::Input("error: no folder for user data is known: set XDG_DATA_HOME".into()))?;
     let program = args.povray.as_deref().unwrap_or(Path::new("povray"));
     let (version, said) = measured(program)?;
     let (table, difference) = table(&said)
@@ -106,7 +107,9 @@ fn checked() -> impl Iterator<Item = [f64; 3]> {
 /// Runs POV-Ray on a scene that prints its noise. Returns its version and the printed numbers.
 fn measured(program: &Path) -> Result<(String, Vec<f64>), Failure> {
     let Some(lattice) = lattice() else {
-        return Err(Failure::Input("error: the lattice lacks a hash".into()));
+        return Err(Failure::Input(
+            "error: the noise cannot be measured: not all of its hash values were found".into(),
+        ));
     };
     let mut scene =
         String::from("#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#include \"functions.inc\"\n");

@@ -86,11 +86,14 @@ fn report(status: &Status) {
     if steps.rays > 0 {
         let per_ray = |n: u64| n as f64 / steps.rays as f64;
         eprintln!("  steps       of {} rays near patches, sweeps or parametric surfaces:", steps.rays);
-        eprintln!("    {:>10.3}  evaluations a ray", per_ray(steps.evaluations));
-        eprintln!("    {:>10.3}  cuts a ray", per_ray(steps.cuts));
-        eprintln!("    {:>10}  evaluations and cuts of one ray at most", steps.most);
-        eprintln!("    {:>10}  crossings proven by a certificate", steps.proven);
-        eprintln!("    {:>10}  crossings left unproven: grazing ones and clusters", steps.unproven);
+        eprintln!("    {:>10.3}  evaluations per ray", per_ray(steps.evaluations));
+        eprintln!("    {:>10.3}  subdivisions per ray", per_ray(steps.cuts));
+        eprintln!("    {:>10}  evaluations and subdivisions of a single ray, at most", steps.most);
+        eprintln!("    {:>10}  crossings proven to exist and to be unique", steps.proven);
+        eprintln!(
+            "    {:>10}  crossings not proven: grazing rays and crossings close together",
+            steps.unproven
+        );
     }
     eprintln!("  time        {:.3} s", status.elapsed.as_secs_f64());
 }

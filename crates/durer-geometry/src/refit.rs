@@ -15,7 +15,9 @@ use std::sync::OnceLock;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RefitError {
     /// A surface has other parts than before: for example, a mesh has other faces with an area.
-    #[error("geometry: primitive {primitive} of object {object} has other parts than before: build anew")]
+    #[error(
+        "geometry: the parts of primitive {primitive} of object {object} have changed: use rebuild instead of refit"
+    )]
     Parts {
         /// The object.
         object: u32,
@@ -25,7 +27,7 @@ pub enum RefitError {
     /// A surface was bounded and is not any more, or it was empty and is not any more, or the other
     /// way round.
     #[error(
-        "geometry: primitive {primitive} of object {object} has other bounds than the tree can hold: build anew"
+        "geometry: the tree cannot hold the new bounds of primitive {primitive} of object {object}: use rebuild instead of refit"
     )]
     Bounds {
         /// The object.

@@ -170,7 +170,7 @@ impl Parser<'_> {
         let place = self.here();
         let sky = self.nested(Self::sky_sphere_block)?;
         if self.scene.sky.replace((sky, place)).is_some() {
-            self.notice(place, "the scene has more than one sky_sphere: this one counts");
+            self.notice(place, "the scene has more than one sky_sphere: this one replaces the earlier one");
         }
         Ok(())
     }

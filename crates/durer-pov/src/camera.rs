@@ -382,7 +382,7 @@ impl Parser<'_> {
     pub(crate) fn camera_statement(&mut self, place: Place) -> Result<()> {
         let camera = self.nested(Self::camera_block)?;
         if self.scene.camera.replace(camera).is_some() {
-            self.notice(place, "the scene has more than one camera: this one counts");
+            self.notice(place, "the scene has more than one camera: this one replaces the earlier one");
         }
         Ok(())
     }

@@ -199,7 +199,7 @@ impl Parser<'_> {
     fn end(&mut self, block: u32, place: Place) -> Result<()> {
         let control = self.frames.last_mut().and_then(|frame| frame.controls.pop());
         match control {
-            None => Err(Error::invalid(place, "this #end ends nothing that was begun")),
+            None => Err(Error::invalid(place, "this #end closes no open block")),
             Some(Control::Branch) => Ok(()),
             Some(Control::While(head)) => {
                 let Some(Kind::Directive(_, opener)) = self.token_kind(self.jump(block).next as usize) else {

@@ -65,7 +65,7 @@ impl Parser<'_> {
         }
         if leaves && !self.options.any_file {
             let text = format!(
-                "\"{name}\" leads out of the folder for the scene's own files (--allow-io lets it do so)"
+                "\"{name}\" must be a relative path without `..`, so that it stays in the folder for the scene's files (--allow-io permits other paths)"
             );
             return Err(Error::file(Some(at), text));
         }
@@ -228,7 +228,7 @@ impl Parser<'_> {
                 _ => None,
             };
             let Some(Handle::Reads(source, token)) = self.files.open.get(number) else {
-                let why = if has_ended { "has no value for this" } else { "is not open for reading" };
+                let why = if has_ended { "has no more values" } else { "is not open for reading" };
                 return Err(Error::invalid(if has_ended { at } else { place }, format!("the file {why}")));
             };
             let mut data = Data { source: source.clone(), at: *token };

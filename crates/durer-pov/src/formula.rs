@@ -219,7 +219,7 @@ impl Parser<'_> {
             Some(Keyword::Internal) => return self.internal_function().map(function),
             Some(Keyword::Pattern) => return self.pattern_function().map(function),
             Some(Keyword::Texture) => {
-                let text = "not supported yet: a texture as a function: no bound of its values over a box is known, which an exact root needs";
+                let text = "not supported yet: a texture as a function: durer cannot bound its values over a box, as exact intersections require";
                 return Err(Error::at(self.here(), ErrorKind::Unsupported, text));
             }
             _ => {}
@@ -515,13 +515,19 @@ impl Parser<'_> {
                 ),
                 _,
             )) => Parameter::Word(word),
-            _ => return Err(Error::invalid(self.here(), "expected the name of the variable that counts")),
+            _ => {
+                let text = format!(
+                    "expected the name of the loop variable, as in `{}(i, 1, 9, i * x)`",
+                    word.text()
+                );
+                return Err(Error::invalid(self.here(), text));
+            }
         };
         self.expect(Mark::Comma)?;
         let first = self.whole_bound(draft)?;
         let last = self.whole_bound(draft)?;
         if last - first > MOST_ROUNDS {
-            let text = format!("{} over more than {MOST_ROUNDS} numbers", word.text());
+            let text = format!("the bounds of `{}` may differ by at most {MOST_ROUNDS}", word.text());
             return Err(Error::at(place, ErrorKind::Limit, text));
         }
         // Reads the expression as a function of the outer inputs and of the loop's variable.

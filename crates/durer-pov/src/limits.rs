@@ -146,7 +146,7 @@ pub(crate) fn reset_memory() {
 pub(crate) fn check_memory(place: Place, limits: &Limits, more: usize) -> Result<()> {
     let held = HELD.with(Cell::get).saturating_add(more as u64);
     if held > limits.memory {
-        return Err(exceeded(place, "memory", limits.memory, "the scene's data do not fit"));
+        return Err(exceeded(place, "memory", limits.memory, "the scene's data need too much memory"));
     }
     Ok(())
 }

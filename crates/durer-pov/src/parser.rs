@@ -305,7 +305,7 @@ impl<'a> Parser<'a> {
 
     /// The token `ahead` tokens after [`Parser::raw`].
     pub(crate) fn raw_ahead(&self, ahead: usize) -> Option<Kind> {
-        debug_assert!(self.peeked.is_none(), "a token was looked at already");
+        debug_assert!(self.peeked.is_none(), "raw tokens cannot be read after a peek");
         let frame = self.frames.last()?;
         let at = frame.at + ahead;
         (at < frame.end).then(|| frame.source.tokens[at].kind)

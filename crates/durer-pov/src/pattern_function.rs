@@ -137,7 +137,7 @@ impl Parser<'_> {
             Some(b.finish(root, 3))
         };
         if pattern.modifiers.place.inverse().is_none() {
-            return Err(Error::invalid(place, CANNOT_BE_UNDONE));
+            return Err(Error::invalid(place, NOT_INVERTIBLE));
         }
         let exact = if noise_pattern::lacks_generator(&pattern) { None } else { formula() };
         self.language.noise_is_used |= exact.as_ref().is_some_and(has_noise);
@@ -157,11 +157,11 @@ impl Parser<'_> {
 }
 
 /// The message for a pattern whose placement is not invertible.
-pub(crate) const CANNOT_BE_UNDONE: &str = "the pattern's transforms cannot be undone";
+pub(crate) const NOT_INVERTIBLE: &str = "the pattern's transforms cannot be inverted";
 
 /// The message for a texture in the function of a surface, for which no formula is known.
 pub(crate) fn lacking(place: Place) -> Box<Error> {
-    let text = "not supported yet: this pattern or pigment in the function of a surface: no bound of its values over a box is known, which an exact root needs";
+    let text = "not supported yet: this pattern or pigment in the function of a surface: durer cannot bound its values over a box, as exact intersections require";
     Error::at(place, ErrorKind::Unsupported, text)
 }
 

@@ -19,7 +19,7 @@ use crate::diagnostics::{Error, ErrorKind, Result};
 use crate::formulas::pieces::{Knot, chosen};
 use crate::noise_pattern::lacks_generator;
 use crate::parser::Parser;
-use crate::pattern_function::{CANNOT_BE_UNDONE, has_noise, moved, written};
+use crate::pattern_function::{NOT_INVERTIBLE, has_noise, moved, written};
 use crate::sampled::Called;
 use crate::texture::{Body, Map, Paint, Pattern, PatternKind, Pigment};
 use crate::texture_builder;
@@ -48,7 +48,7 @@ impl Parser<'_> {
         let exact: Option<[Formula; 5]> = match everywhere(&mut b, &pigment) {
             Ok(colour) => Some(colour.map(|part| b.finish(part, 3))),
             Err(Lack::Formula) => None,
-            Err(Lack::Place) => return Err(Error::invalid(place, CANNOT_BE_UNDONE)),
+            Err(Lack::Place) => return Err(Error::invalid(place, NOT_INVERTIBLE)),
         };
         let is_noisy = exact.as_ref().is_some_and(|parts| parts.iter().any(has_noise));
         self.language.noise_is_used |= is_noisy;

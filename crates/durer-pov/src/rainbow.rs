@@ -108,7 +108,7 @@ impl Parser<'_> {
         }
         let made = rainbow.scene();
         if made.is_none() {
-            self.notice(place, "nothing is seen of a rainbow without a direction, a width or a distance");
+            self.notice(place, "this rainbow is not visible: it lacks a direction, a width or a distance");
         }
         let bytes = made.as_ref().map_or(0, |made| size_of_val(made.colours.as_slice()));
         crate::limits::charge_for_good(size_of::<durer_scene::Rainbow>() + bytes);

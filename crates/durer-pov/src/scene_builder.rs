@@ -73,9 +73,8 @@ pub(crate) fn rgb(c: [f64; 3]) -> scene::Rgb {
 pub(crate) fn affine(matrix: &Matrix, at: Place) -> Result<Affine> {
     let [x, y, z, t] = matrix.rows;
     let rows = std::array::from_fn(|i| [x[i], y[i], z[i]]);
-    Affine::new(rows, point(t)).map_err(|why| {
-        Error::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
-    })
+    Affine::new(rows, point(t))
+        .map_err(|why| Error::invalid(at, format!("the transform of this object cannot be inverted: {why}")))
 }
 
 pub(crate) fn placement(matrix: &Matrix, at: Place) -> Result<scene::Placement> {
@@ -341,9 +340,8 @@ impl Parser<'_> {
         let Some(solid) = self.emitted(solid, &mut Vec::new())? else {
             return Err(Error::invalid(at, "there is no solid here to deform"));
         };
-        let singular = |why| {
-            Error::invalid(at, format!("this object is placed by a transform that cannot be undone: {why}"))
-        };
+        let singular =
+            |why| Error::invalid(at, format!("the transform of this object cannot be inverted: {why}"));
         let mut made = scene::Object::deformed(solid, warps).map_err(singular)?;
         let own = placement(&object.place, at)?;
         made.transform(own.affine()).map_err(singular)?;

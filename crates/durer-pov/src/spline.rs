@@ -211,7 +211,10 @@ impl Parser<'_> {
             let at = self.here();
             let value = self.expression()?;
             if value.len() < 2 {
-                return Err(Error::invalid(at, "a spline's point is a vector of two to five components"));
+                return Err(Error::invalid(
+                    at,
+                    "a point of a spline must be a vector of two to five components, got a number",
+                ));
             }
             for &part in value.as_slice() {
                 crate::expression::finite(part, at)?;
@@ -226,7 +229,11 @@ impl Parser<'_> {
         }
         points.sort_by(|(s, _), (t, _)| s.total_cmp(t));
         if let Some(pair) = points.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(Error::invalid(place, format!("this spline has two points for t = {}", pair[0].0)));
+            let shown = |p: &[f64; 5]| p[..terms].iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+            let [(t, one), (_, other)] = [pair[0], pair[1]];
+            let text =
+                format!("this spline has two points at t = {t}: <{}> and <{}>", shown(&one), shown(&other));
+            return Err(Error::invalid(place, text));
         }
         let _charge = Charge::new(points.len() * size_of::<(f64, [f64; 5])>() + 64);
         let spline = Spline { kind, points, terms, _charge };

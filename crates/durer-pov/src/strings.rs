@@ -117,7 +117,10 @@ impl Parser<'_> {
         self.skip_comma()?;
         let digits = self.float()?;
         if width.abs() > WIDEST || digits > WIDEST {
-            return Err(Error::invalid(self.here(), format!("no number is wider than {WIDEST}")));
+            return Err(Error::invalid(
+                self.here(),
+                format!("the width of a number and its digits after the point may be at most {WIDEST}"),
+            ));
         }
         Ok((width, digits))
     }

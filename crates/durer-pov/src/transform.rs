@@ -182,7 +182,7 @@ impl Parser<'_> {
         if !matrix.is_sound() {
             return Err(Error::invalid(
                 place,
-                "this transform is singular: it flattens space or leaves the numbers",
+                "this transform cannot be inverted: its matrix is singular or its numbers are out of range",
             ));
         }
         Ok(Some(matrix))

@@ -70,7 +70,7 @@ fn index(word: Keyword) -> Option<usize> {
 pub(crate) fn wants_part(place: Place) -> Box<Error> {
     Error::invalid(
         place,
-        "this function gives a vector: name the part that is meant, as in F(x).y or F(x, y, z).red",
+        "this function returns a vector: choose a component, as in F(x).y or F(x, y, z).red",
     )
 }
 
@@ -82,7 +82,10 @@ impl Parser<'_> {
         };
         let place = self.here();
         if has_parameters {
-            let text = format!("a {} as a function has no parameters that one could name", word.text());
+            let text = format!(
+                "a function of a {0} takes no parameter list: write `function {{ {0} {{ ... }} }}`",
+                word.text()
+            );
             return Err(Error::invalid(place, text));
         }
         let parts = match word {

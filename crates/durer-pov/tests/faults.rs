@@ -218,7 +218,7 @@ fn patches_say_what_is_wrong_with_them() {
         ),
         (
             "nurbs { degree 1, 1 points 2, 2, 0, x, y, x + y u_knots 4, 0, 0, 2, 1 }",
-            "knots must not fall: knot 4 is 1 after 2",
+            "knots must not decrease: knot 4 is 1 after 2",
         ),
         ("subdivision { }", "this subdivision has no face_indices"),
         ("subdivision { scheme loop }", "this subdivision has no face_indices"),
@@ -333,13 +333,13 @@ fn curved_prisms_say_what_is_wrong_with_them() {
     );
     says(
         "prism { quadratic_spline 0, 1, 5, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 0> }",
-        "does not come back to <1, 0>",
+        "is not closed: it must return to <1, 0>",
     );
     says(
         "prism { cubic_spline 0, 1, 6, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <2, 2>, <1, 0> }",
-        "come back to <1, 0>, with one point behind",
+        "must return to <1, 0>, followed by one more point",
     );
-    says("prism { bezier_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 1> }", "does not come back to <0, 0>");
+    says("prism { bezier_spline 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 1> }", "must return to <0, 0>");
     says(
         "prism { bezier_spline 0, 1, 8, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 2>, <1, 0>, <1, 1>, <0, 0> }",
         "ends at <0, 1>, the next begins at <0, 2>",
@@ -454,7 +454,7 @@ fn shapes_without_extent_are_left_out_with_a_warning() {
         "cubic { <0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7> }",
     ] {
         let said = notices(text);
-        assert!(said.iter().any(|said| said.contains("nothing of it is seen")), "{text}: {said:?}");
+        assert!(said.iter().any(|said| said.contains("the object is not visible")), "{text}: {said:?}");
     }
     assert_eq!(scene("box { 0, <1, 0, 1> }").objects.len(), 1);
 }

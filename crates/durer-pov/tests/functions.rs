@@ -541,14 +541,14 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("#declare V = <1, 2, 3>; #declare F = function(a) { a*V };", 54, "made of floats");
     says("#declare F = function(a) { sqrt(a) }; #declare A = F(-1);", 52, "undefined here");
     says("#declare F = function { internal(99) };", 25, "no internal function 99");
-    says("isosurface { function { pattern { crackle solid on } } }", 14, "no bound");
-    says("isosurface { function { pattern { crackle metric 0.5 } } }", 14, "no bound");
+    says("isosurface { function { pattern { crackle solid on } } }", 14, "cannot bound");
+    says("isosurface { function { pattern { crackle metric 0.5 } } }", 14, "cannot bound");
     says(
         "#declare F = function { pattern { cells } }; isosurface { function { x - F(x, y, z) } }",
         59,
-        "no bound",
+        "cannot bound",
     );
-    says("isosurface { function { pattern { bozo noise_generator 3 } } }", 14, "no bound");
+    says("isosurface { function { pattern { bozo noise_generator 3 } } }", 14, "cannot bound");
     says(
         "#declare F = function { pattern { slope { y } } }; sphere { 0, F(1, 2, 3) }",
         35,
@@ -562,7 +562,7 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("sphere { 0, 1 pigment { slope { 0 } } }", 33, "not zero");
     says("sphere { 0, 1 pigment { slope { y, 1, 1 } } }", 36, "is empty");
     let ridged = "#declare F = function { internal(59) }";
-    says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "20 at most");
+    says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "at most 20");
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 4, 1, 1, 3) }}"), 52, "noise generator 3");
     let unknown = "isosurface { function { F(x, y, z, 1, 2, x, 1, 1, 2) } }";
     says(&format!("{ridged} {unknown}"), 64, "number of octaves that is not known");
@@ -570,30 +570,30 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says(&format!("{third} sphere {{ 0, F(1, 2, 3) }}"), 91, "noise generator 3");
     let spline = "#declare S = spline { 0, <1, 2> 1, <3, 4> };";
     says("#declare S = spline { };", 14, "no points");
-    says("#declare S = spline { 0, <1, 2> 0, <3, 4> };", 14, "two points for t = 0");
+    says("#declare S = spline { 0, <1, 2> 0, <3, 4> };", 14, "two points at t = 0: <1, 2> and <3, 4>");
     says("#declare S = spline { 0, 7 1, 9 };", 26, "vector of two to five");
     says("#declare S = spline { 0, <1e300, 0> 1e-300, <-1e300, 0> };", 14, "too near");
     says(&format!("{spline} #declare A = S(1).z;"), 64, "no such part");
     says(&format!("{spline} #declare A = S(1, cube);"), 64, "a kind of spline");
-    says("#declare F = function(a) { spline { 0, <1, 2> } };", 28, "no parameters");
+    says("#declare F = function(a) { spline { 0, <1, 2> } };", 28, "takes no parameter list");
     says(
         &format!(
             "{spline} #declare F = function {{ spline {{ S }} }}; #declare G = function {{ F(x) - y }};"
         ),
         110,
-        "name the part",
+        "choose a component",
     );
     says(&format!("{spline} #declare G = function {{ S(x, y).x }};"), 70, "takes 1 argument");
     says(&format!("{spline} #declare G = function {{ S(x).z }};"), 75, "no such part");
-    says("isosurface { function { transform { scale 2 } } }", 14, "name the part");
+    says("isosurface { function { transform { scale 2 } } }", 14, "choose a component");
     says(
         "#declare F = function { pigment { cells } }; isosurface { function { F(x, y, z).red } }",
         59,
-        "no bound",
+        "cannot bound",
     );
-    says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "no bound");
+    says("#declare F = function { texture { } }; sphere { 0, F(1, 2, 3).red }", 52, "cannot bound");
     says("#declare F = function { pigment { spherical scale <1, 1, 1e-320> } };", 45, "singular");
-    says("#declare F = function(a) { pigment { spherical } };", 28, "no parameters");
+    says("#declare F = function(a) { pigment { spherical } };", 28, "takes no parameter list");
     says("isosurface { threshold 1 }", 1, "no function");
     says("isosurface { function(a, b) { a } }", 14, "three parameters, this one has 2");
     says("isosurface { function { x } contained_by { box { 0, <1, 0, 1> } } }", 44, "no thickness");

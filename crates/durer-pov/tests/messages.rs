@@ -63,7 +63,7 @@ const MISTAKES: &[(&str, &str)] = &[
     ("#decalre A = 1;", "there is no directive `#decalre` (did you mean `#declare`?)"),
     ("#end", "#end stands in no block it belongs to"),
     ("#declare A = sum(i, 1, 2, i);", "not supported yet: sum"),
-    ("#fopen F \"../x\" write", "\"../x\" leads out of the folder for the scene's own files"),
+    ("#fopen F \"../x\" write", "\"../x\" must be a relative path without `..`"),
     ("#read (F, A)", "`F` is no open file"),
     ("bicubic_patch { flatness 0 }", "this bicubic_patch has no type: it needs `type 0` or `type 1`"),
     ("#declare P = trace(1, 0, y);", "expected an object, found a number"),

@@ -405,7 +405,10 @@ fn what_cannot_be_deformed_is_refused_with_its_place() {
     refused("deform { sphere { 0, 1 } twist { y, from 0 to 1 } }", "the angle of the twist");
     refused("deform { sphere { 0, 1 } twist { y, 90 } }", "`from A to B`");
     refused("deform { sphere { 0, 1 } bend { y, x, 90, from 1 to 1 } }", "a below b");
-    refused("deform { sphere { 0, 1 } bend { y, 2*y, 90, from 0 to 1 } }", "the side of its axis");
+    refused(
+        "deform { sphere { 0, 1 } bend { y, 2*y, 90, from 0 to 1 } }",
+        "must not be parallel to its axis",
+    );
     refused("deform { sphere { 0, 1 } taper { y, 0, from 0 to 1 } }", "greater than 0");
     refused("deform { sphere { 0, 1 } formula { function { x } function { y } } }", "which z");
     refused(

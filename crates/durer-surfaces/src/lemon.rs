@@ -33,7 +33,7 @@ pub enum LemonError {
         least: f64,
     },
     /// The numbers are beyond the range in which the solid can be described.
-    #[error("lemon: its numbers are too large, too small or too different")]
+    #[error("lemon: its height and radii are too large or too small, or differ too much in size")]
     Range,
 }
 

@@ -23,7 +23,7 @@ pub enum OvusError {
     #[error("ovus: the {0} radius must be finite and positive, got {1}")]
     Radius(&'static str, f64),
     /// The radii are too different, or beyond the range in which the solid can be described.
-    #[error("ovus: radii {0} and {1} are too large, too small or too different")]
+    #[error("ovus: radii {0} and {1} are too large or too small, or differ too much in size")]
     Range(f64, f64),
 }
 

@@ -38,7 +38,7 @@ pub enum SorError {
     #[error("sor: heights must ascend, but {0} comes before {1}")]
     Heights(f64, f64),
     /// The curve has no inside, or its numbers are beyond the range in which it can be described.
-    #[error("sor: its numbers are too large or too small together")]
+    #[error("sor: its radii and heights are too large or too small, or differ too much in size")]
     Range,
 }
 

@@ -153,7 +153,7 @@ async fn change(server: &Arc<Server>, path: &str, value: Value) -> Answer {
     };
     match generation {
         Some(generation) => data(&json!({ "generation": generation })),
-        None => plain(StatusCode::BAD_REQUEST, "this is not understood"),
+        None => plain(StatusCode::BAD_REQUEST, "the request lacks a value, or a value is unknown"),
     }
 }
 

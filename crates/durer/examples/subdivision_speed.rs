@@ -91,7 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     for (name, steps) in [("primary", first), ("diffuse", second)] {
         println!(
-            "{name}: {:.2} evaluations and {:.3} cuts a ray",
+            "{name}: {:.2} evaluations and {:.3} subdivisions per ray",
             steps.evaluations as f64 / count,
             steps.cuts as f64 / count
         );

@@ -213,12 +213,14 @@ pub(super) fn check(number: u32, arguments: &[Option<f64>]) -> Result<(), String
     if let Some(index) = octaves {
         let octaves = known(index, "a number of octaves")?;
         if octaves > f64::from(MOST_OCTAVES) {
-            return Err(format!("not supported yet: {octaves} octaves; there are {MOST_OCTAVES} at most"));
+            return Err(format!(
+                "not supported yet: {octaves} octaves; at most {MOST_OCTAVES} are supported"
+            ));
         }
     }
     let generator = known(arguments.len() - 1, "a noise generator")?;
     if generator.trunc() == 3.0 {
-        return Err(String::from("not supported yet: noise generator 3; 1 and 2 are there"));
+        return Err(String::from("not supported yet: noise generator 3; only 1 and 2 are supported"));
     }
     Ok(())
 }

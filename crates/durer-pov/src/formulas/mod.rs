@@ -304,7 +304,7 @@ pub(crate) fn check(function: Noisy, arguments: &[Option<f64>]) -> Result<(), St
 /// The formula of `internal(number)`. `generator` is for noise functions that do not state one.
 pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
     if number == PLAIN_NOISE && generator.trunc() == 3.0 {
-        return Err(Lacking::NotYet("noise generator 3; 1 and 2 are there"));
+        return Err(Lacking::NotYet("noise generator 3; only 1 and 2 are supported"));
     }
     if let Some(formula) = fractal::internal(number, generator) {
         let noisy = (number != PLAIN_NOISE).then_some(number as Noisy);
@@ -312,9 +312,9 @@ pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<N
     }
     let Some(row) = TABLE.iter().find(|row| f64::from(row.0) == number) else {
         let known = number.fract() == 0.0 && (0.0..=78.0).contains(&number);
-        return Err(if known { Lacking::NotYet("its formula is not known here") } else { Lacking::Unknown });
+        return Err(if known { Lacking::NotYet("durer has no formula for it") } else { Lacking::Unknown });
     };
-    let formula = written(row).ok_or(Lacking::NotYet("its formula is not known here"))?;
+    let formula = written(row).ok_or(Lacking::NotYet("durer has no formula for it"))?;
     Ok((formula, None))
 }
 
@@ -354,7 +354,7 @@ mod tests {
 
     #[test]
     fn unknown_numbers_are_told_apart() {
-        assert!(matches!(internal(9.0, 2.0), Err(Lacking::NotYet(why)) if why.contains("not known here")));
+        assert!(matches!(internal(9.0, 2.0), Err(Lacking::NotYet(why)) if why.contains("has no formula")));
         assert_eq!(internal(79.0, 2.0), Err(Lacking::Unknown));
         assert_eq!(internal(1.5, 2.0), Err(Lacking::Unknown));
     }

@@ -64,8 +64,7 @@ impl Parser<'_> {
                     let toward = r.side("bend { y, x, 90, from 0 to 1 }")?;
                     let [a, b] = [axis, toward].map(Vec3::to_array);
                     if crate::transform::cross(a, b) == [0.0; 3] {
-                        let text =
-                            "a bend goes to the side of its axis, and this is the direction of the axis";
+                        let text = "the direction of a bend must not be parallel to its axis";
                         return Err(Error::invalid(at, text));
                     }
                     let degrees = r.number("the angle of the bend, in degrees")?;
@@ -248,7 +247,7 @@ fn fits(object: &Rc<Object>, warp: &Warp) -> Result<()> {
             }
             (Warp::Inverse { .. }, Some(name)) => {
                 let text = format!(
-                    "a `formula` says where points came from, so it deforms solids; {name} takes twist, taper, bend and lattice"
+                    "a `formula` is an inverse map, which deforms only solids: deform {name} by twist, taper, bend or lattice"
                 );
                 Err(Error::invalid(object.at, text))
             }
@@ -283,7 +282,9 @@ fn check(object: &Rc<Object>, alone: bool) -> Result<()> {
         if alone {
             return Ok(());
         }
-        return refuse(&format!("{name} is deformed by itself, not as a part of a solid of solids"));
+        return refuse(&format!(
+            "{name} cannot be deformed as a part of a merge, intersection or difference: deform it by itself"
+        ));
     }
     let without_formula = match &object.shape {
         Shape::Union(parts) => return parts.iter().try_for_each(|part| check(part, alone)),

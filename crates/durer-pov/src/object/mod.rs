@@ -373,7 +373,9 @@ impl Parser<'_> {
         if let Some(light) = parts.iter().find(|part| part.holds_light()) {
             return Err(Error::invalid(
                 light.at,
-                format!("a light has no place in a {what}: a union holds lights"),
+                format!(
+                    "a light source cannot be part of this {what}: only a union can contain light sources"
+                ),
             ));
         }
         let mut solids = Vec::with_capacity(parts.len());
@@ -465,7 +467,7 @@ impl Parser<'_> {
 
     /// The shape of an object that shows nothing, as in POV-Ray, and a warning that says so.
     pub(crate) fn nothing(&mut self, why: &str, place: Place) -> Shape {
-        self.notice(place, format!("{why}: nothing of it is seen"));
+        self.notice(place, format!("{why}: the object is not visible"));
         Shape::Nothing
     }
 }

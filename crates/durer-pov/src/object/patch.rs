@@ -349,7 +349,7 @@ impl Parser<'_> {
                 let (k, before) = (n + 1, knots[n - 1]);
                 return Err(Error::invalid(
                     at,
-                    format!("knots must not fall: knot {k} is {knot} after {before}"),
+                    format!("knots must not decrease: knot {k} is {knot} after {before}"),
                 ));
             }
             knots.push(knot);

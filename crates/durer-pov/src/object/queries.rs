@@ -115,7 +115,10 @@ impl Parser<'_> {
     pub(crate) fn volume_for_pattern(&mut self, place: Place) -> Result<scene::Object> {
         let object = self.asked_object()?;
         if object.lacks_volume {
-            return Err(Error::invalid(place, "this object has parts without volume, so it is no pattern"));
+            return Err(Error::invalid(
+                place,
+                "this object cannot be a pattern: it has parts without volume",
+            ));
         }
         // It is built once here, so that errors name the object.
         self.ready(&object, true, place)?;

@@ -304,7 +304,7 @@ impl Parser<'_> {
             }
         }
         if !current.is_empty() {
-            self.notice(place, "this polygon does not end at its first point: it is closed");
+            self.notice(place, "this polygon does not end at its first point; durer closes it");
             loops.push(current);
         }
         // Where it turns back at once there is no area.

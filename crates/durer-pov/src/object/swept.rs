@@ -130,10 +130,12 @@ impl Parser<'_> {
             let text = match curve {
                 Curve::Cubic => {
                     format!(
-                        "outline {n} of this {of} does not come back to <{x}, {z}>, with one point behind that"
+                        "outline {n} of this {of} is not closed: it must return to <{x}, {z}>, followed by one more point"
                     )
                 }
-                _ => format!("outline {n} of this {of} does not come back to <{x}, {z}>, where it begins"),
+                _ => format!(
+                    "outline {n} of this {of} is not closed: it must return to <{x}, {z}>, where it begins"
+                ),
             };
             return Err(Error::invalid(start, text));
         }
@@ -332,7 +334,7 @@ impl Parser<'_> {
             }
         }
         if is_unclosed {
-            let text = format!("this {of} does not end at its first point: it is closed");
+            let text = format!("this {of} does not end at its first point; durer closes it");
             self.notice(place, &text);
         }
         Ok(outlines)

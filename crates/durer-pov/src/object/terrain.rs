@@ -10,7 +10,7 @@ use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
-use crate::pattern_function::CANNOT_BE_UNDONE;
+use crate::pattern_function::NOT_INVERTIBLE;
 use crate::picture::{self, Fault, Format};
 use crate::texture::Pigment;
 use crate::texture_builder;
@@ -114,7 +114,7 @@ impl Parser<'_> {
             } else {
                 self.count_steps((columns * rows) as u64, place)?;
                 let Some(values) = function.prepared(self.texture_context()) else {
-                    return Err(Error::invalid(place, CANNOT_BE_UNDONE));
+                    return Err(Error::invalid(place, NOT_INVERTIBLE));
                 };
                 heights_of(size, |x, y| F8(x.0.map(|x| values.value(&[x, y, 0.0]))))
             }

@@ -226,7 +226,7 @@ impl Parser<'_> {
                 *size = given;
             }
             (Keyword::Size, Some(NormalKind::Facets(_))) => {
-                return Err(Error::unsupported(place, "size of facets (coords is there)"));
+                return Err(Error::unsupported(place, "size of facets (only coords is supported)"));
             }
             (_, kind) => {
                 let kind = match kind {

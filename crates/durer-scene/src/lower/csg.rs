@@ -106,7 +106,7 @@ impl Lowering {
             around.clone()
         } else if object.cutaway_textures.is_some() && object.texture.is_none() && around.texture.is_none() {
             let kind = LowerErrorKind::Cutaway(
-                "a merge, intersection or difference within another one cannot have it yet",
+                "not supported yet on a merge, intersection or difference that is part of another one",
             );
             return Err(kind.at(object.place));
         } else {
@@ -281,7 +281,7 @@ struct Lent<'d> {
 impl Lent<'_> {
     fn unsure() -> LowerErrorKind {
         LowerErrorKind::Cutaway(
-            "which parts of a union or merge hold a point is not looked up yet: give all of its parts one texture, and other parts none or the same",
+            "not supported yet for these textures: all parts of a union or merge must have one texture, and the other parts the same one or none",
         )
     }
 

@@ -333,7 +333,9 @@ fn flat(shape: &Shape, map: Option<&Affine>, mut target: Target<'_>) -> Result<B
                 None => (map, (centre, radius, hole)),
             };
             if hole > 0.0 && hole >= radius {
-                return Ok(Built::Nothing("disc: its hole is as large as itself, so it is left out".into()));
+                return Ok(Built::Nothing(
+                    "disc: its hole is as large as the disc or larger, so the disc is left out".into(),
+                ));
             }
             if hole > 0.0 {
                 target.add_rare(Annulus::new(centre, normal, hole, radius).map_err(shape_error)?, map);
@@ -549,7 +551,7 @@ pub(super) fn region(clip: &Object, around: &Affine) -> Result<Region> {
         shape => return Err(LowerErrorKind::Clip(shape.name())),
     };
     if !clip.clips.is_empty() {
-        return Err(LowerErrorKind::Clip("something that is clipped itself"));
+        return Err(LowerErrorKind::Clip("an object that is itself clipped"));
     }
     let region = if clip.flags.inverse { region.inverse() } else { region };
     let place = clip.placement.affine().then(around)?;

@@ -97,7 +97,7 @@ pub enum IfsError {
     #[error("ifs: the corners of the tetrahedron must be finite and not lie in one plane")]
     Tetrahedron,
     /// A number is too large.
-    #[error("ifs: it is too large, up to {0:?}")]
+    #[error("ifs: the coordinate {0:?} is too large; the limit is 1.6e60")]
     TooLarge(f64),
 }
 

@@ -117,7 +117,7 @@ pub enum PatchError {
     #[error("patch: the largest weight is {0} times the least, which is too much")]
     Weights(f64),
     /// A number is too large.
-    #[error("patch: it is too large, up to {0:?}")]
+    #[error("patch: the coordinate {0:?} is too large; the limit is 1.6e60")]
     TooLarge(f64),
     /// All points are the same.
     #[error("patch: all its points are the same, so it has no surface")]

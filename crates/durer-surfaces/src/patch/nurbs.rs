@@ -107,7 +107,7 @@ pub enum NurbsError {
         len: usize,
     },
     /// A knot is infinite, NaN, or less than the one before it.
-    #[error("nurbs: knots must be finite and not fall, but knot {number} along {along} is {knot}")]
+    #[error("nurbs: knots must be finite and must not decrease, but knot {number} along {along} is {knot}")]
     Knot {
         /// The parameter.
         along: char,
@@ -117,7 +117,7 @@ pub enum NurbsError {
         knot: f64,
     },
     /// A knot is there too often.
-    #[error("nurbs: the knot {knot} along {along} is there {times} times, it may be {most} times")]
+    #[error("nurbs: the knot {knot} along {along} occurs {times} times, but may occur at most {most} times")]
     Repeated {
         /// The parameter.
         along: char,

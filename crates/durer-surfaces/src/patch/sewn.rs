@@ -85,7 +85,7 @@ pub enum SewnError {
         count: usize,
     },
     /// Surfaces of a closed one have no common outer side.
-    #[error("sewn: it has no inside: surfaces {a} and {b} meet so that one side goes over into the other")]
+    #[error("sewn: it has no inside: surfaces {a} and {b} cannot be oriented consistently")]
     Sides {
         /// One surface, from 1.
         a: usize,

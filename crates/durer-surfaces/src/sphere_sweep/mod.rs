@@ -89,7 +89,7 @@ pub enum SphereSweepError {
     #[error("sphere sweep: all radii are 0, so it has no surface")]
     Nothing,
     /// A number is too large.
-    #[error("sphere sweep: it is too large, up to {0:?}")]
+    #[error("sphere sweep: the coordinate or radius {0:?} is too large; the limit is 1.6e60")]
     TooLarge(f64),
 }
 

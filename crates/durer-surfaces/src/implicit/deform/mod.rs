@@ -187,7 +187,7 @@ pub enum DeformError {
     LatticeInverse,
     /// A parametric surface is deformed by inverse functions.
     #[error(
-        "formula: it says where points came from, so it deforms solids; what is given by parameters needs the map itself: twist, taper, bend or lattice"
+        "formula: it is an inverse map, which deforms only solids; parametric surfaces and patches need a forward map: twist, taper, bend or lattice"
     )]
     Forward,
     /// A deformed parametric surface is not completely in its container.

@@ -151,7 +151,7 @@ pub enum SubdivisionError {
         faces: [usize; 2],
     },
     /// The faces of a vertex do not make one fan.
-    #[error("subdivision: the faces of vertex {vertex} fall into two fans or more; faces {} and {} are in different ones", faces[0], faces[1])]
+    #[error("subdivision: the faces at vertex {vertex} do not form a single fan: faces {} and {} are not connected by edges at this vertex", faces[0], faces[1])]
     Fans {
         /// The vertex.
         vertex: u32,

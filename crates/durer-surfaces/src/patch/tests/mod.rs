@@ -609,11 +609,11 @@ fn bad_nurbs_are_named() {
     assert_eq!(with(&|d| d.knots[0] = vec![0.0; 4]), "nurbs: 7 knots are needed along u, got 4");
     assert_eq!(
         with(&|d| d.knots[0] = vec![0.0, 0.0, 0.0, 2.0, 1.0, 3.0, 3.0]),
-        "nurbs: knots must be finite and not fall, but knot 5 along u is 1"
+        "nurbs: knots must be finite and must not decrease, but knot 5 along u is 1"
     );
     assert_eq!(
         with(&|d| d.knots[1] = vec![0.0, 0.0, 0.0, 1.0]),
-        "nurbs: the knot 0 along v is there 3 times, it may be 2 times"
+        "nurbs: the knot 0 along v occurs 3 times, but may occur at most 2 times"
     );
     assert_eq!(
         with(&|d| d.points[5][3] = -1.0),

@@ -56,7 +56,7 @@ pub enum TrimError {
     },
     /// A knot is infinite, NaN, less than the one before it or repeated too often.
     #[error(
-        "knots must be finite, not fall, and not be there more often than the degree, but knot {number} is {knot}"
+        "knots must be finite, must not decrease, and must not occur more often than the degree, but knot {number} is {knot}"
     )]
     Knot {
         /// The knot, from 1.
@@ -90,10 +90,12 @@ pub enum TrimError {
         at: [f64; 2],
     },
     /// It runs the same way round as the loop around it.
-    #[error("it runs the same way round as trim {0} around it, but what stays is left of both")]
+    #[error(
+        "it runs the same way round as trim {0}, which encloses it: reverse one of them, since a trim keeps what is on its left"
+    )]
     SameWay(usize),
     /// Two loops that are side by side run in different ways.
-    #[error("it runs the other way round than trim {0}, and neither is within the other")]
+    #[error("it runs the other way round from trim {0}, and neither encloses the other: reverse one of them")]
     OtherWay(usize),
 }
 

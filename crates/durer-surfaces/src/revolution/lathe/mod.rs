@@ -100,7 +100,7 @@ pub enum LatheError {
     #[error("lathe: its profile sweeps no surface: it lies on the axis, or is a single point")]
     Empty,
     /// The numbers are beyond the range in which the surface can be described.
-    #[error("lathe: its numbers are too large or too small together")]
+    #[error("lathe: its radii and heights are too large or too small: its size must be from 1e-50 to 1e50")]
     Range,
 }
 

@@ -383,7 +383,7 @@ fn bad_meshes_are_named() {
             d.vertices.extend([[5.0, 5.0, 5.0], [5.0, 6.0, 5.0]].map(Point3::from));
             d.faces.push(vec![0, 8, 9]);
         }),
-        "subdivision: the faces of vertex 0 fall into two fans or more; faces 0 and 6 are in different ones"
+        "subdivision: the faces at vertex 0 do not form a single fan: faces 0 and 6 are not connected by edges at this vertex"
     );
     assert_eq!(
         with(&|d| d.creases.push(([0, 7], 1.0))),
