@@ -200,6 +200,22 @@ pub(crate) fn value_of(pattern: &Pattern, at: Place) -> Result<scene::Value> {
     })
 }
 
+/// Refuses a pavement that does not exist.
+fn check_pavement(pavement: &scene::Pavement, place: Place) -> Result<()> {
+    let scene::Pavement { sides, tiles, pattern, .. } = *pavement;
+    let patterns = scene::Pavement::patterns(sides, tiles);
+    if (1..=patterns).contains(&pattern) {
+        return Ok(());
+    }
+    let text = if patterns == 0 {
+        let most = if sides == 6 { 5 } else { 6 };
+        format!("the tiles of a pavement with {sides} sides have 1 to {most} cells each, not {tiles}")
+    } else {
+        format!("this pavement has the patterns 1 to {patterns}, not {pattern}")
+    };
+    Err(Error::invalid(place, text))
+}
+
 fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
     let own = &pattern.modifiers.turbulence;
     let stirred = || (!own.is_none()).then(|| own.scene());
@@ -210,12 +226,13 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
     };
     let (word, place) = match &pattern.kind {
         PatternKind::Gradient(direction) => return Ok(scene::Ramp::Gradient(vector(*direction))),
-        PatternKind::Ramp(ramp, _) => {
+        PatternKind::Ramp(ramp, place) => {
             let mut ramp = (**ramp).clone();
             match &mut ramp {
                 // Turbulence moves the points of a spiral, and shifts it too (a fact of the language).
                 scene::Ramp::Spiral { turbulence, .. } => *turbulence = stirred(),
                 scene::Ramp::Crackle(crackle) => crackle.old = own.is_old(),
+                scene::Ramp::Pavement(pavement) => check_pavement(pavement, *place)?,
                 _ => {}
             }
             return Ok(ramp);

@@ -37,11 +37,7 @@ pub(crate) fn is_unsupported(keyword: Keyword) -> bool {
             | Method
             | MinimumReuse
             | NearestCount
-            | NumberOfSides
-            | NumberOfTiles
             | PassThrough
-            | Pattern
-            | Pavement
             | PretraceEnd
             | PretraceStart
             | Prod

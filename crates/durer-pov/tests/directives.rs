@@ -199,15 +199,15 @@ fn warnings_that_repeat_themselves_are_counted() {
 #[test]
 fn what_cannot_be_done_yet_may_be_defined_but_not_used() {
     let defined = "#declare S = spline { linear_spline 0,x 1,y }
-        #declare M = texture { pigment { pavement color_map { [0 rgb 0][1 rgb 1] } } normal { pavement } } texture { pigment { marble } }
-        #declare P = pigment { pavement turbulence 0.5 } #declare N = normal { pavement }
-        #macro W() pavement #end #declare After = 7; #debug str(After,0,0)";
+        #declare M = texture { pigment { spacing color_map { [0 rgb 0][1 rgb 1] } } normal { spacing } } texture { pigment { marble } }
+        #declare P = pigment { spacing turbulence 0.5 } #declare N = normal { spacing }
+        #macro W() spacing #end #declare After = 7; #debug str(After,0,0)";
     assert_eq!(debug(defined), "7");
     for (use_it, word) in [
-        ("sphere { 0, 1 texture { M } }", "pavement"),
-        ("sphere { 0, 1 pigment { P } }", "pavement"),
-        ("sphere { 0, 1 normal { N } }", "pavement"),
-        ("sphere { 0, W() }", "pavement"),
+        ("sphere { 0, 1 texture { M } }", "spacing"),
+        ("sphere { 0, 1 pigment { P } }", "spacing"),
+        ("sphere { 0, 1 normal { N } }", "spacing"),
+        ("sphere { 0, W() }", "spacing"),
     ] {
         let error = read(&format!("{defined}\n{use_it}")).unwrap_err();
         assert_eq!(error.text, format!("not supported yet: {word}"), "{use_it}");

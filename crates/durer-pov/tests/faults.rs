@@ -106,10 +106,10 @@ fn files_that_are_no_scenes_are_named() {
 #[test]
 fn what_cannot_be_done_in_an_included_texture_is_named_there() {
     let folder = Folder::new();
-    folder.write("stones.inc", "#declare T = texture { pigment {\n pavement } }");
+    folder.write("stones.inc", "#declare T = texture { pigment {\n spacing } }");
     folder.write("scene.pov", "#include \"stones.inc\"\nplane { y, 0 }\nsphere { 0, 1 texture { T } }");
     let said = folder.read("scene.pov").unwrap_err().to_string();
-    assert!(said.contains("stones.inc:2:2: not supported yet: pavement"), "{said}");
+    assert!(said.contains("stones.inc:2:2: not supported yet: spacing"), "{said}");
     let (_, used) = said.split_once("= in a value used at ").unwrap();
     assert!(used.trim_end().ends_with("scene.pov:3:25"), "{said}");
 }
@@ -144,11 +144,11 @@ fn impossible_shapes_are_named() {
 
 #[test]
 fn the_place_is_underlined_and_the_way_there_told() {
-    let error = read("#macro Bad(R)\n  sphere { 0, R pavement }\n#end\n\nBad(1)").unwrap_err().to_string();
+    let error = read("#macro Bad(R)\n  sphere { 0, R spacing }\n#end\n\nBad(1)").unwrap_err().to_string();
     let lines: Vec<_> = error.lines().collect();
-    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: pavement"), "{error}");
-    assert_eq!(lines[2], "3 |   sphere { 0, R pavement }");
-    assert_eq!(lines[3], "  |                 ^^^^^^^^");
+    assert!(lines[0].ends_with("scene.pov:3:17: not supported yet: spacing"), "{error}");
+    assert_eq!(lines[2], "3 |   sphere { 0, R spacing }");
+    assert_eq!(lines[3], "  |                 ^^^^^^^");
     assert!(lines[4].contains("in macro Bad, called at") && lines[4].ends_with("scene.pov:6:1"), "{error}");
 }
 
@@ -160,7 +160,7 @@ fn a_misspelling_is_recognised() {
 
 #[test]
 fn what_is_not_there_yet_is_called_by_its_name() {
-    assert_eq!(fault("sphere { 0, 1 pigment { pavement } }").2, "not supported yet: pavement");
+    assert_eq!(fault("sphere { 0, 1 pigment { spacing } }").2, "not supported yet: spacing");
 }
 
 #[test]

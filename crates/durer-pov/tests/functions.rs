@@ -509,6 +509,13 @@ fn textures_as_functions_have_povrays_values() {
     near(magnet, "F(1, 0.3, 0)", 0.936422507576);
     let tiling = "#declare F = function { pattern { tiling 1 } };";
     near(tiling, "F(0.5, 0, 0.25)", 0.5);
+    // Modifiers stand in any order; numbers lose their fractions, and their last two bits count.
+    let pavement = "#declare F = function { pattern { pavement scale 2 form 6.5 pattern 2 number_of_tiles 3.9 number_of_sides 4 } };";
+    let same = "#declare F = function { pattern { pavement number_of_sides 4 number_of_tiles 3 pattern 2 form 2 scale 2 } };";
+    for (x, z) in [(4.3, 0.2), (5.9, 0.7), (-3.1, 2.2)] {
+        let at = format!("F({x}, 0, {z})");
+        assert_eq!(value(pavement, &at), value(same, &at));
+    }
     let cubic = "#declare F = function { pattern { gradient x warp { cubic } } };";
     near(cubic, "F(0.5, 0.2, 0.1)", 0.6);
     // A function of functions of textures, in a loop.
@@ -556,8 +563,9 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     );
     says("#declare F = function { pattern { average } };", 25, "no value");
     says("#declare F = function { pattern { marble colour_map } };", 42, "the pattern's value");
-    says("sphere { 0, 1 pigment { pavement } }", 25, "pavement");
-    says("sphere { 0, 1 pigment { tiling 8 } }", 25, "1 to 7, 10 and 18");
+    says("sphere { 0, 1 pigment { pavement number_of_sides 5 } }", 34, "3, 4 or 6 sides");
+    says("sphere { 0, 1 pigment { pavement pattern 2 } }", 25, "patterns 1 to 1, not 2");
+    says("sphere { 0, 1 pigment { pavement number_of_tiles 7 } }", 25, "1 to 6 cells each, not 7");
     says("sphere { 0, 1 pigment { tiling 28 } }", 25, "from 1 to 27");
     says("sphere { 0, 1 pigment { slope { 0 } } }", 33, "not zero");
     says("sphere { 0, 1 pigment { slope { y, 1, 1 } } }", 36, "is empty");

@@ -164,10 +164,10 @@ fn what_cannot_be_computed_is_a_fault_where_it_stands() {
     let (line, column, _) = fault("#declare A = array[1] { sum(i, 1, 2, i) }");
     assert_eq!((line, column), (1, 25));
     // A random number is not skipped with its texture, because all later ones would change.
-    let text = "#declare R = seed(1); #declare T = texture { pigment { rgb 1 } normal { pavement bump_size rand(R) } }";
+    let text = "#declare R = seed(1); #declare T = texture { pigment { rgb 1 } normal { spacing bump_size rand(R) } }";
     assert!(fault(text).2.starts_with("not supported yet"), "{text}");
     // A definition without random numbers may be skipped.
-    scene("#declare T = texture { pigment { rgb 1 } normal { pavement } } sphere { 0, 1 }");
+    scene("#declare T = texture { pigment { rgb 1 } normal { spacing } } sphere { 0, 1 }");
 }
 
 /// A loop over many objects neither fills the memory nor takes long.

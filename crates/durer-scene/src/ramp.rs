@@ -71,13 +71,15 @@ pub enum Ramp {
     Aoi,
     /// Tiles of the plane `y = 0`, by the number of the tiling: one of [`Ramp::TILINGS`].
     Tiling(u8),
+    /// Tiles of the plane `y = 0` that are made of equal triangles, squares or hexagons.
+    Pavement(Pavement),
     /// Numbers on a grid in the unit cube.
     Density(Arc<DensityGrid>, GridBetween),
 }
 
 impl Ramp {
-    /// The numbers of the available tilings.
-    pub const TILINGS: [u8; 9] = [1, 2, 3, 4, 5, 6, 7, 10, 18];
+    /// The numbers of the tilings.
+    pub const TILINGS: core::ops::RangeInclusive<u8> = 1..=27;
 }
 
 /// A pattern made of noise.
@@ -161,6 +163,49 @@ pub enum SlopeTo {
     Direction(Vec3),
     /// The direction from the surface to a point.
     Point(Point3),
+}
+
+/// The look of the corners of the tiles of a pavement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CornerLook {
+    /// The sides meet in an angle.
+    Sharp,
+    /// The angle is cut off.
+    Cut,
+    /// The angle is rounded.
+    Round,
+}
+
+/// Tiles of some triangles, squares or hexagons each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pavement {
+    /// The number of sides of the cells: 3, 4 or 6.
+    pub sides: u8,
+    /// The number of cells of a tile, from 1.
+    pub tiles: u8,
+    /// The number of the pavement among those of such tiles, from 1 to [`Pavement::patterns`].
+    pub pattern: u8,
+    /// The look of pointed corners; hexagons have none.
+    pub exterior: CornerLook,
+    /// The look of corners into which other tiles point.
+    pub interior: CornerLook,
+    /// The look where a tile turns. Without one, squares have the look of other corners, and
+    /// triangles and hexagons are sharp.
+    pub form: Option<CornerLook>,
+}
+
+impl Pavement {
+    /// The number of pavements of cells with so many sides and tiles of so many cells.
+    pub fn patterns(sides: u8, tiles: u8) -> u8 {
+        let counts: &[u8] = match sides {
+            3 => &[1, 1, 1, 3, 4, 12],
+            4 => &[1, 1, 2, 5, 12, 35],
+            6 => &[1, 1, 3, 7, 22],
+            _ => &[],
+        };
+        let index = usize::from(tiles).checked_sub(1);
+        index.and_then(|index| counts.get(index)).map_or(0, |&count| count)
+    }
 }
 
 /// An iteration in the complex plane.

@@ -4,10 +4,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
-use durer_scene::{Crackle, Fractal, FractalMap, GridBetween, Ramp, Slope, SlopeTo};
+use durer_scene::{CornerLook, Crackle, Fractal, FractalMap, GridBetween, Pavement, Ramp, Slope, SlopeTo};
 
 use super::PatternKind;
-use crate::diagnostics::{Error, ErrorKind, Place, Result};
+use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
 use crate::parser::Parser;
@@ -62,12 +62,18 @@ impl Parser<'_> {
                         format!("tilings have numbers from 1 to 27, not {number}"),
                     ));
                 }
-                let known = Ramp::TILINGS.into_iter().find(|&known| f64::from(known) == number.trunc());
-                let Some(known) = known else {
-                    let text = format!("not supported yet: tiling {number}; 1 to 7, 10 and 18 are there");
-                    return Err(Error::at(place, ErrorKind::Unsupported, text));
-                };
-                Ramp::Tiling(known)
+                Ramp::Tiling(number as u8)
+            }
+            Keyword::Pavement => {
+                self.next()?;
+                Ramp::Pavement(Pavement {
+                    sides: 3,
+                    tiles: 1,
+                    pattern: 1,
+                    exterior: CornerLook::Sharp,
+                    interior: CornerLook::Sharp,
+                    form: Some(CornerLook::Sharp),
+                })
             }
             Keyword::Aoi => {
                 self.next()?;
@@ -252,7 +258,40 @@ impl Parser<'_> {
                 let both = (kind as u8, self.float()?);
                 if word == Keyword::Exterior { set.exterior = both } else { set.interior = both }
             }
+            (_, Ramp::Pavement(pavement)) => return self.pavement_modifier(word, pavement),
             _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Reads a modifier of a pavement. Numbers lose their fractions (a fact of the language).
+    fn pavement_modifier(&mut self, word: Keyword, pavement: &mut Pavement) -> Result<bool> {
+        use Keyword::{Exterior, Form, Interior, NumberOfSides, NumberOfTiles, Pattern};
+        if !matches!(word, Exterior | Form | Interior | NumberOfSides | NumberOfTiles | Pattern) {
+            return Ok(false);
+        }
+        self.next()?;
+        let place = self.here();
+        let number = self.float()?.trunc();
+        // The last two bits count (a fact of the language).
+        let look = match number as i64 & 3 {
+            1 => Some(CornerLook::Cut),
+            2 => Some(CornerLook::Round),
+            3 => None,
+            _ => Some(CornerLook::Sharp),
+        };
+        match word {
+            Exterior => pavement.exterior = look.unwrap_or(CornerLook::Sharp),
+            Interior => pavement.interior = look.unwrap_or(CornerLook::Sharp),
+            Form => pavement.form = look,
+            NumberOfSides if ![3.0, 4.0, 6.0].contains(&number) => {
+                let text = format!("the cells of a pavement have 3, 4 or 6 sides, not {number}");
+                return Err(Error::invalid(place, text));
+            }
+            NumberOfSides => pavement.sides = number as u8,
+            // What is too large stays too large, and is refused with the whole pattern.
+            NumberOfTiles => pavement.tiles = number as u8,
+            _ => pavement.pattern = number as u8,
         }
         Ok(true)
     }

@@ -19,7 +19,7 @@ impl Maker {
             10 | 11 => self.fractal(),
             12 => "cells".into(),
             13 | 14 => self.crackle(),
-            15 => format!("tiling {}", self.r.choice(&["1", "2", "3", "4", "5", "6", "7", "10", "18"])),
+            15 => format!("tiling {}", 1 + self.r.below(27)),
             16..=18 => self.function(),
             19 if depth > 0 => {
                 let inner = self.pigment(depth - 1);

@@ -8,6 +8,7 @@ mod formulas;
 mod fractal;
 mod inside;
 mod noise;
+mod pavement;
 mod push;
 mod ripples;
 mod slope;
@@ -25,7 +26,7 @@ use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
 use durer_formula::Tape;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
-use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Ramp, Slope};
+use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Pavement, Ramp, Slope};
 use ripples::Centres;
 
 /// A [`Ramp`] with its constants precomputed.
@@ -54,6 +55,7 @@ pub(crate) enum Field {
     Slope(Slope),
     Aoi,
     Tiling(u8),
+    Pavement(Pavement),
     Pigment(Box<RenderPigment>),
     Picture(Picture, ImageValue),
     Kind(Cutter),
@@ -97,6 +99,7 @@ impl Field {
             Ramp::Slope(slope) => Self::Slope(*slope),
             Ramp::Aoi => Self::Aoi,
             Ramp::Tiling(number) => Self::Tiling(*number),
+            Ramp::Pavement(pavement) => Self::Pavement(*pavement),
             Ramp::Sampled(function) => Self::Sampled(Box::new(Sampled::new(function)?)),
             Ramp::Pigment(pigment) => {
                 Self::Pigment(Box::new(RenderPigment::new(pigment, &Affine::IDENTITY)?))
@@ -134,6 +137,7 @@ impl Field {
             Self::Slope(slope) => slope::value(slope, p, around),
             Self::Aoi => slope::incidence(around),
             &Self::Tiling(number) => tiling::value(number, p),
+            Self::Pavement(pavement) => pavement::value(pavement, p),
             Self::Inside(volume) => volume.value(p),
             Self::Density(grid, between) => grid.value(p.to_array(), *between),
             Self::Marble(None) => p.x,
