@@ -68,6 +68,13 @@ fn circle(x: f64, y: f64, r: f64) -> TrimLoop {
 }
 
 #[test]
+fn a_spline_of_degree_one_is_a_polygon() {
+    let points = vec![[0.25, 0.25, 1.0], [0.75, 0.25, 1.0], [0.5, 0.75, 1.0], [0.25, 0.25, 1.0]];
+    let nurbs = sheet(vec![TrimLoop::Nurbs { degree: 1, points, knots: vec![] }], &[0.5]).unwrap();
+    assert_eq!((down(&nurbs, 0.5, 0.375).len(), down(&nurbs, 0.25, 0.5).len()), (1, 0));
+}
+
+#[test]
 fn a_triangle_is_cut_out_exactly() {
     // Corners are powers of two, so the side a point is on follows from exact products.
     let nurbs = sheet(vec![polygon(&[[0.125, 0.125], [0.875, 0.25], [0.25, 0.75]])], &[0.5]).unwrap();

@@ -277,7 +277,7 @@ fn pieces(given: &TrimLoop) -> Result<Vec<Piece>, TrimError> {
             };
             let curve: Vec<_> = points.iter().map(times).collect();
             let (net, _) = spans(&curve, &knots, *degree);
-            (0..net.len() / degree).map(|k| Piece::new(&net[k * degree..=(k + 1) * degree])).collect()
+            (0..(net.len() - 1) / degree).map(|k| Piece::new(&net[k * degree..=(k + 1) * degree])).collect()
         }
     };
     // Curves without length.
