@@ -452,7 +452,7 @@ def matched(report, scene, ray, expected, hits, on_the_line):
         # What a rounded surface tells on the other side of an end of the range, within its bracket.
         straddled = lambda e: isinstance(e.t, Place) and any(e.t.l < end < e.t.r for end in ray[6:])
         beyond = lambda e: straddled(e) or not exact_ends and any(inside(e, h) and any(h["t_lo"] <= end <= h["t_hi"] for end in ray[6:]) for h in on_the_line)
-        if not all(e.optional or beyond(e) for e in left):
+        if not all(e.optional and not e.needed or beyond(e) for e in left):
             wrong.append("missing crossing")
         clear &= not left
     if expected.within:

@@ -1,4 +1,4 @@
-"""Curved patches of any kind: NURBS with and without trims, rational Bezier patches, triangular ones, formulas that are polynomials.
+"""Curved patches of any kind: NURBS with and without trims, rational Bezier patches, triangular ones, formulas of two parameters.
 
 Each is a few polynomial nets over a square: homogeneous control points, exact fractions of the numbers of the text. Two planes through a ray make two polynomials f and g of u and v; the ray meets the patch
 where both are zero. A square is cut in two until the hulls of its control values show that it has no zero, or until the slopes show that it has one at most: adj(J) times the slopes is close to det(J) times the
@@ -12,9 +12,8 @@ from math import comb, lcm
 
 from exact import Number, sign
 from patches import Patch, Tangents
-from shapes import Answer, Event, cross, dot, sub, text, times, vec
+from shapes import Answer, Event, cross, dot, sub, times
 from solids import at
-from zero_sets import near
 
 BITS = 320
 END = 70
@@ -235,7 +234,7 @@ class Piece:
         self.ints = [[tuple(int(x * self.whole) for x in p) for p in row] for row in self.net]
 
     def functions(self, ray):
-        """f and g, scaled to BITS bits."""
+        """f and g, scaled to BITS bits: times two to the `shifts`."""
         x, d, w = ray
         k = max(range(3), key=lambda i: abs(d[i]))
         nets = []
@@ -243,12 +242,19 @@ class Piece:
         for i in range(3):
             if i != k:
                 nets.append([[d[k] * p[i] - d[i] * p[k] for p in row] for row in moved])
-        out = []
+        out, self.shifts = [], []
         for net in nets:
             top = max(abs(a) for row in net for a in row)
             shift = BITS - top.bit_length()
+            self.shifts.append(shift)
             out.append([[a << shift if shift >= 0 else a >> -shift for a in row] for row in net])
         return out
+
+    def units(self, ray, error):
+        """How much of f or g an error in space makes at most, after `functions`."""
+        _, d, w = ray
+        heavy = max(abs(p[3]) for row in self.ints for p in row)
+        return int(2 * error * max(map(abs, d)) * w * heavy * F(2) ** max(self.shifts)) + 1
 
     def point(self, u, v):
         """The homogeneous point and its first derivatives at fractions, by sums."""
@@ -285,7 +291,10 @@ def rounded(x, bits=200):
 
 
 class Net(Patch):
-    """Pieces over a domain ((u0, u1), (v0, v1)), closed along some parameters. `inside(place, a, b)`, if not all of the domain counts, is the distance to what bounds it, negative outside, where u counts a and v b."""
+    """Pieces over a domain ((u0, u1), (v0, v1)), closed along some parameters. `inside(place, a, b)`, if not all of the domain counts, is the distance to what bounds it, where u counts a and v b, and whether the place counts. Within `blur`, in
+    parameters, the command need not tell which."""
+
+    blur = 0
 
     def __init__(self, body, pieces, domain, points, directions, size, inside=None, closed=(False, False)):
         super().__init__(body, points, directions, size)
@@ -294,13 +303,16 @@ class Net(Patch):
 
     # -- zeros --
 
-    def search(self, ray, room=64, end=None):
-        """Zeros (piece, u, v, None) and squares that are left (piece, u, v, square)."""
+    def search(self, ray, room=64, end=None, error=None):
+        """Zeros (piece, u, v, None) and squares that are left (piece, u, v, square): where f and g may be less than `room`, or than an error in space makes of them."""
         found, count, self.gave_up = [], 0, False
         for piece in self.pieces:
             f, g = piece.functions(ray)
             todo = [Square(-BEYOND, -BEYOND, 1 + 2 * BEYOND, 1 + 2 * BEYOND, f, g)]
             least = (1 << (BITS - END)) if end is None else end
+            if error:
+                room = piece.units(ray, error)
+                least = 8 * room
             while todo:
                 square = todo.pop()
                 count += 1
@@ -318,7 +330,8 @@ class Net(Patch):
                 if max(along_u, along_v) <= least:
                     found.append((piece, square.u + square.size_u / 2, square.v + square.size_v / 2, square))
                     continue
-                nets = is_single(square)
+                # Within an error there may be another one than the exact one.
+                nets = None if error else is_single(square)
                 zero = nets and zero_of(*nets)
                 if zero:
                     u, v = (F(5 * a, 4 << BITS) - F(1, 8) for a in zero)
@@ -366,7 +379,7 @@ class Net(Patch):
         return Tangents(n, rounded(bend) + F(1, 1 << 200)), su, sv
 
     def meetings(self, ray):
-        """(t, tangents or None, whether it is on a border, turn), for each place."""
+        """(t, tangents or None, whether it is on a border, turn, whether it is told even so), for each place."""
         if self.last and self.last[0] == ray:
             self.within |= self.last[2]
             self.beside = self.last[3]
@@ -387,7 +400,7 @@ class Net(Patch):
                     self.within = True
                     continue
                 wide = F(top([F(x, ray[2]) for x in ray[0]]) + self.size) / top(d) / (1 << 66)
-                raw.append([min(ts) - wide, max(ts) + wide, [], True, 0, self.parameters(piece, u, v), False])
+                raw.append([min(ts) - wide, max(ts) + wide, [], True, 0, self.parameters(piece, u, v), False, False])
                 continue
             t = self.depth(piece, ray, rounded(u, 300), rounded(v, 300))
             if t is None:
@@ -396,14 +409,14 @@ class Net(Patch):
             tangents, su, sv = self.tangents(piece, u, v)
             place = self.parameters(piece, u, v)
             if tangents is None:
-                raw.append([t, t, [], True, 0, place, False])
+                raw.append([t, t, [], True, 0, place, False, False])
                 continue
             # How far the ray's own rounding moves the place along the surface: more where it grazes.
             n = tangents.normal
             grazing = top(n) * top(d) / abs(dot(n, d)) if dot(n, d) else F(1 << 60)
             area = top(cross(su, sv))
             off = slack * grazing * 4 * top(su) * top(sv) / area
-            apart = self.clearance(place, su, sv)
+            apart, kept = self.clearance(place, su, sv)
             if apart < -off:
                 continue
             # Beyond an inner border another piece is met, but for rounding.
@@ -415,7 +428,8 @@ class Net(Patch):
                 continue
             # Next to an edge that is one point there is no normal.
             tip = area * (1 << 20) < self.size * max(top(su), top(sv))
-            raw.append([t, t, [] if tip else [tangents], tip or apart < off, sign(dot(n, d)), place, to_inner < off])
+            needed = kept and not tip and to_inner > off
+            raw.append([t, t, [] if tip else [tangents], tip or apart < off, sign(dot(n, d)), place, to_inner < off, needed])
         out = self.joined(raw, ray)
         self.last = (ray, out, self.within, self.beside)
         return out
@@ -424,42 +438,45 @@ class Net(Patch):
         return piece.u[0] + u * (piece.u[1] - piece.u[0]), piece.v[0] + v * (piece.v[1] - piece.v[0])
 
     def clearance(self, place, su, sv):
-        """How far from a border in space, about; negative outside."""
+        """How far from a border in space, about, negative outside; and whether a place is within all of them."""
         scale = [max(map(abs, slope)) / (b - a) for slope, (a, b) in zip((su, sv), self.domain)]
-        ways = []
+        ways = [F(1 << 200)]
         for k, (a, b) in enumerate(self.domain):
             if not self.closed[k]:
                 ways += [(place[k] - a) * scale[k], (b - place[k]) * scale[k]]
+        kept = min(ways) >= -self.size / (1 << 180)
         if self.inside:
-            ways.append(self.inside(place, *scale))
-        return min(ways, default=F(1 << 200))
+            far, stays = self.inside(place, *scale)
+            ways.append(max(far - self.blur * max(scale), 0) * (1 if stays else -1))
+            kept &= stays
+        return min(ways), kept
+
+    def apart(self, p, q):
+        """How far two places are from each other, also across a seam, as a part of the domain."""
+        out = []
+        for x, y, (a, b), closed in zip(p, q, self.domain, self.closed):
+            far = abs(x - y) / (b - a)
+            out.append(min(far, abs(far - 1)) if closed else far)
+        return max(out)
 
     def joined(self, raw, ray):
         """Places on borders of pieces, which two of them find, are one; along a seam too."""
         raw.sort(key=lambda r: r[0] + r[1])
         tiny = F(1, 1 << 150)
         scale = self.size / max(abs(F(x, ray[2])) for x in ray[1])
-        spans = [b - a for a, b in self.domain]
-
-        def apart(p, q):
-            out = []
-            for k in (0, 1):
-                far = abs(p[k] - q[k])
-                out.append(min(far, abs(far - spans[k])) if self.closed[k] else far)
-            return max(a / s for a, s in zip(out, spans))
-
         out = []
         for r in raw:
-            same = next((o for o in out if r[0] - o[1] <= scale * tiny and (r[1] > r[0] or o[1] > o[0] or apart(r[5], o[5]) <= tiny)), None)
+            same = next((o for o in out if r[0] - o[1] <= scale * tiny and (r[1] > r[0] or o[1] > o[0] or self.apart(r[5], o[5]) <= tiny)), None)
             if same is None:
                 out.append(r)
                 continue
             same[0], same[1] = min(same[0], r[0]), max(same[1], r[1])
             same[3] |= r[3]
             same[6] |= r[6]
+            same[7] &= r[7]
             if same[4] != r[4]:
                 # A crease that is touched, or what is left of a tangent.
-                same[3], same[4] = True, 0
+                same[3], same[4], same[7] = True, 0, False
             same[2] += r[2]
         # Along a line of the surface.
         self.within |= any((o[1] - o[0]) * (1 << 20) > scale for o in out)
@@ -474,21 +491,22 @@ class Net(Patch):
                 o[0], o[1] = min(o[0], *same), max(o[1], *same)
             elif o[6]:
                 o[3] = True
-        out += [[t, t, [tangents], True, turn, None, True] for t, tangents, turn in alone]
-        return [(Place(a - eps, b + eps), n, border, turn) for a, b, n, border, turn, _, _ in out]
+        out += [[t, t, [tangents], True, turn, None, True, False] for t, tangents, turn in alone]
+        return [(Place(a - eps, b + eps), n, border, turn, needed) for a, b, n, border, turn, _, _, needed in out]
 
     def answer(self, o, d, m):
         ray = m.ray(o, d)
         self.within = False
         found = sorted(self.meetings(ray), key=cmp_to_key(lambda a, b: a[0].cmp(b[0])))
-        self.met = [(t, n) for t, normals, _, _ in found for n in normals or [None]] + [(Place(t, t), n) for t, n, _ in self.beside]
+        self.met = [(t, n) for t, normals, *_ in found for n in normals or [None]] + [(Place(t, t), n) for t, n, _ in self.beside]
         d = tuple(F(x, ray[2]) for x in ray[1])
         flip = -1 if self.inverse else 1
         events = []
-        for t, normals, border, turn in found:
+        for t, normals, border, turn, needed in found:
             event = Event(t, flip * turn, [(n, flip) for n in normals], self)
             # Within the patch's own plane but for some rounding errors.
-            event.optional = border or any(is_flat(n, d, 44) for n in normals)
+            flat = any(is_flat(n, d, 44) for n in normals)
+            event.optional, event.needed = border or flat, needed and not flat
             events.append(event)
         return Answer(self.clipped(events, ray), [], self.within)
 
@@ -498,7 +516,7 @@ class Net(Patch):
         wide = hi - lo + self.size / max(abs(F(x, ray[2])) for x in ray[1]) / (1 << 30)
         d = tuple(F(x, ray[2]) for x in ray[1])
         beside = lambda t: t.against(lo - 2 * wide) >= 0 >= t.against(hi + 2 * wide)
-        if any(beside(t) and (not normals or any(is_flat(n, d, 18) for n in normals)) for t, normals, _, _ in self.meetings(ray)):
+        if any(beside(t) and (not normals or any(is_flat(n, d, 18) for n in normals)) for t, normals, *_ in self.meetings(ray)):
             return True
         # What is met in so many places that they were not all looked at is a tangent of a high order.
         return any(lo - 2 * wide <= t <= hi + 2 * wide for t in self.low_places(ray)) or self.gave_up
@@ -508,7 +526,7 @@ class Net(Patch):
         found = self.meetings(ray)
         wide = 2 * (hi - lo)
         near_crease = any(lo - wide <= t <= hi + wide for t, _, _ in self.beside)
-        return near_crease or any((border or len(normals) > 1) and t.against(lo) >= 0 >= t.against(hi) for t, normals, border, _ in found)
+        return near_crease or any((border or len(normals) > 1) and t.against(lo) >= 0 >= t.against(hi) for t, normals, border, *_ in found)
 
     def low_places(self, ray):
         """Where a ray passes the surface by less than 2^-34 of it without a sure crossing."""
@@ -517,313 +535,3 @@ class Net(Patch):
                 t = self.depth(piece, ray, u, v)
                 if t is not None:
                     yield t
-
-
-# ---- nets of splines, triangles and polynomials ----
-
-
-def blossom(points, knots, i, degree, places):
-    """The polar form of a B-spline on [knots[i], knots[i + 1]]."""
-    p = [points[i - degree + k] for k in range(degree + 1)]
-    for r, t in enumerate(places, 1):
-        for k in range(degree, r - 1, -1):
-            a, b = knots[i - degree + k], knots[i + k - r + 1]
-            s = (t - a) / (b - a)
-            p[k] = tuple((1 - s) * x + s * y for x, y in zip(p[k - 1], p[k]))
-    return p[degree]
-
-
-def spans(points, knots, degree):
-    """(index, a, b) of the spans of a B-spline that have a length."""
-    return [(i, knots[i], knots[i + 1]) for i in range(degree, len(points)) if knots[i] < knots[i + 1]]
-
-
-def bezier(points, knots, degree, span):
-    i, a, b = span
-    return [blossom(points, knots, i, degree, [a] * (degree - k) + [b] * k) for k in range(degree + 1)]
-
-
-def spline_pieces(rows, knots, degrees, closed):
-    """The pieces of a net of homogeneous points, u along a row."""
-    along_u = spans(rows[0], knots[0], degrees[0])
-    along_v = spans(rows, knots[1], degrees[1])
-    out = []
-    for su in along_u:
-        part = columns([bezier(row, knots[0], degrees[0], su) for row in rows])
-        for sv in along_v:
-            net = columns([bezier(column, knots[1], degrees[1], sv) for column in part])
-            ends = [s == edge and not c for spans_, s, c in ((along_u, su, closed[0]), (along_v, sv, closed[1])) for edge in (spans_[0], spans_[-1])]
-            out.append(Piece(net, su[1:], sv[1:], ends))
-    return out
-
-
-def lifted(p, w=1):
-    return (*(F(x) * w for x in p), F(w))
-
-
-def words_of(points, weights):
-    """Points of the text, with their weights if there are any."""
-    return ", ".join(vec((*p, w)) if weights else vec(p) for p, w in points)
-
-
-def drawn(rng, wild):
-    return F(rng.uniform(-2, 2)) if wild else F(rng.randint(-4, 4))
-
-
-def drawn_weight(rng, wild):
-    return F(rng.uniform(0.25, 4)) if wild else F(rng.choice((1, 1, 2, 3, 4, F(1, 2), F(1, 4))))
-
-
-def grid(rng, nu, nv, scale, wild, weights):
-    """Points somewhere, or near a grid, or graphs with some points moved; (point, weight) row by row."""
-    style = rng.choice(("any", "near", "near", "graph"))
-    rows = []
-    for j in range(nv):
-        row = []
-        for i in range(nu):
-            h = drawn(rng, wild)
-            if style == "any":
-                p = (drawn(rng, wild), h, drawn(rng, wild))
-            else:
-                p = (2 * i - nu + 1, h / 2, 2 * j - nv + 1)
-                if style == "near":
-                    p = tuple(x + drawn(rng, wild) / 4 for x in p)
-            row.append((tuple(scale * F(float(x)) for x in p), drawn_weight(rng, wild) if weights else F(1)))
-        rows.append(row)
-    if rng.random() < 0.12:
-        # An edge that is one point.
-        rows[0] = [(rows[0][0][0], w) for _, w in rows[0]]
-    if rng.random() < 0.08:
-        # One that is doubled: no slope there along v.
-        rows[1] = [(p, w) for (p, _), (_, w) in zip(rows[0], rows[1])] if nv > 2 else rows[1]
-    return rows
-
-
-def knots_of(rng, count, degree):
-    """Clamped knots, some of them multiple, uniform ones among them."""
-    inner = count - degree - 1
-    style = rng.choice(("uniform", "whole", "any"))
-    if style == "uniform":
-        values = [F(k) for k in range(1, inner + 1)]
-    elif style == "whole":
-        values, at_ = [], F(0)
-        while len(values) < inner:
-            at_ += rng.choice((1, 1, 2, 3, F(1, 2)))
-            values += [at_] * min(rng.choice((1, 1, 1, 2, degree)), inner - len(values), degree)
-    else:
-        values = sorted(F(rng.uniform(0.125, 7)) for _ in range(inner))
-    last = (values[-1] if values else 0) + rng.choice((1, 2))
-    last = F(float(last))
-    start = F(0)
-    return [start] * (degree + 1) + values + [last] * (degree + 1)
-
-
-QUARTERS = [(1, 0, 1), (1, 1, 1), (0, 1, 2), (-1, 1, 1), (-1, 0, 1), (-1, -1, 1), (0, -1, 2), (1, -1, 1), (1, 0, 1)]
-"""A circle of four quarters: cosine, sine and weight."""
-ARCS = [F(k) for k in (0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4)]
-
-
-def loops_of(rng, domain):
-    """Polygons in the plane of the parameters: one outside, perhaps, and holes in it; whole sixteenths of the domain."""
-    (u0, u1), (v0, v1) = domain
-    # As f64 numbers, so that the text holds them.
-    place = lambda a, b: (F(float(u0 + (u1 - u0) * F(a) / 16)), F(float(v0 + (v1 - v0) * F(b) / 16)))
-    loops = []
-    outer = rng.random() < 0.6
-    if outer:
-        ring = [(1, 1), (15, 1), (15, 15), (1, 15)]
-        if rng.random() < 0.5:
-            ring = [(0, 0), (16, 0), (16, 16), (0, 16)] if rng.random() < 0.3 else [(a + rng.choice((0, 1, F(rng.random()))), b + rng.choice((0, -1, 1, F(rng.random()))) * (0 < b)) for a, b in [(1, 1), (14, 1), (14, 14), (8, 14), (1, 14)]]
-            ring = [(a, b if b < 13 else max(b, F(27, 2))) for a, b in ring]
-        loops.append([place(*p) for p in ring])
-    for a, b in rng.sample([(3, 3), (8, 3), (3, 8), (8, 8)], rng.randint(0 if outer else 1, 3)):
-        corners = [(a, b), (a, b + 4), (a + 4, b + 4), (a + 4, b)]
-        if rng.random() < 0.5:
-            corners = [(x + rng.choice((0, 0, F(rng.random()) / 2)), y + rng.choice((0, F(rng.random()) / 2))) for x, y in corners[: rng.choice((3, 4))]]
-        loops.append([place(*p) for p in corners])
-    return loops
-
-
-def beside_loops(loops):
-    """The distance to polygons, negative beyond them: what lies to the left of them stays."""
-    area = sum(a[0] * b[1] - a[1] * b[0] for loop in loops[:1] for a, b in zip(loop, loop[1:] + loop[:1]))
-
-    def inside(place, ku, kv):
-        # Outside of all of them is kept if the outermost go round clockwise.
-        kept, least = area < 0, None
-        for loop in loops:
-            for a, b in zip(loop, loop[1:] + loop[:1]):
-                (p, q), (r, s) = ((x - place[0], y - place[1]) for x, y in (a, b))
-                if (q > 0) != (s > 0) and (p * s - q * r > 0) == (s > q):
-                    kept = not kept
-                p, r, q, s = p * ku, r * ku, q * kv, s * kv
-                e, f = r - p, s - q
-                long = e * e + f * f
-                t = min(max(-(p * e + q * f) / long, 0), 1) if long else F(0)
-                far = max(abs(p + t * e), abs(q + t * f))
-                least = far if least is None else min(least, far)
-        return least if kept else -least
-
-    return inside
-
-
-def aims_of(rng, leaf, specials=()):
-    """Points at borders, knots, middles and special parameters, with their normals."""
-    def points():
-        for _ in range(3):
-            for _ in range(20):
-                piece = rng.choice(leaf.pieces)
-                part = lambda: rng.choice((F(0), F(1), F(rng.randint(1, 7), 8), F(rng.random()), F(rng.random())))
-                u, v = part(), part()
-                if specials and rng.random() < 0.5:
-                    a, b = rng.choice(specials)
-                    s = rng.choice((F(0), F(1, 2), F(rng.random())))
-                    u, v = (x + s * (y - x) for x, y in zip(a, b))
-                    piece = next(p for p in leaf.pieces if p.u[0] <= u <= p.u[1] and p.v[0] <= v <= p.v[1])
-                    u, v = (u - piece.u[0]) / (piece.u[1] - piece.u[0]), (v - piece.v[0]) / (piece.v[1] - piece.v[0])
-                if not leaf.triangular or u + v <= 1:
-                    break
-            p = piece.point(u, v)[0]
-            n = leaf.normal_at(piece, u, v)[0]
-            p = near(tuple(x / p[3] for x in p[:3]))
-            leaf.known[p] = n
-            yield p
-
-    return points
-
-
-AXES = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 0)]
-
-
-def has_area(leaf):
-    return all(any(leaf.normal_at(piece, *at_)[0]) for piece in leaf.pieces for at_ in ((F(1, 3), F(2, 7)), (F(3, 5), F(2, 9))))
-
-
-def nurbs(rng):
-    leaf = any_nurbs(rng)
-    while not has_area(leaf):
-        leaf = any_nurbs(rng)
-    return leaf
-
-
-def curved_patch(rng):
-    leaf = any_patch(rng)
-    while not has_area(leaf):
-        leaf = any_patch(rng)
-    return leaf
-
-
-def any_nurbs(rng):
-    wild, weighted = rng.random() < 0.3, rng.random() < 0.6
-    scale = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
-    style = rng.choice(("plain", "plain", "trimmed", "trimmed", "turned", "periodic"))
-    closed = (False, False)
-    words = []
-    if style == "turned":
-        # About y, with a seam; the rows may begin and end on the axis.
-        degrees = (2, rng.choice((1, 2, 3)))
-        n = degrees[1] + rng.randint(1, 3)
-        profile = [(F(rng.randint(1, 4)), F(drawn(rng, False)), drawn_weight(rng, False)) for _ in range(n)]
-        if rng.random() < 0.4:
-            profile[0] = (F(0), *profile[0][1:])
-        rows = [[(tuple(scale * x for x in (r * c, y, r * s)), w * k) for c, s, k in QUARTERS] for r, y, w in profile]
-        knots, weighted, closed = [ARCS, knots_of(rng, n, degrees[1])], True, (True, False)
-        words = ["u_knots", "v_knots"]
-    else:
-        degrees = (rng.randint(1, 4), rng.randint(1, 4))
-        counts = [d + rng.randint(1, 4) for d in degrees]
-        rows = grid(rng, *counts, scale, wild, weighted)
-        knots = [knots_of(rng, n, d) for n, d in zip(counts, degrees)]
-        words = ["u_knots", "v_knots"]
-    count = (len(rows[0]), len(rows))
-    listed = [("u_knots", knots[0]), ("v_knots", knots[1])]
-    if style == "periodic":
-        k = rng.randrange(2)
-        closed = (k == 0, k == 1)
-        around = [F(i) for i in range(count[k] + 1)]
-        listed[k] = (listed[k][0], around)
-        d, n = degrees[k], count[k]
-        knots[k] = [F(i) for i in range(-d, n + d + 1)]
-        if k == 0:
-            full = [[row[(i - d) % n] for i in range(n + d)] for row in rows]
-        else:
-            full = [rows[(j - d) % n] for j in range(n + d)]
-    else:
-        full = rows
-    domain = tuple((kn[d], kn[len(kn) - 1 - d]) for kn, d in zip(knots, degrees))
-    loops = loops_of(rng, domain) if style == "trimmed" else []
-    body = f"nurbs {{ degree {degrees[0]}, {degrees[1]} points {count[0]}, {count[1]}, {words_of([p for row in rows for p in row], weighted)}"
-    for name, values in listed:
-        body += f" {name} {len(values)}, {', '.join(map(text, values))}"
-    if style == "periodic":
-        body += " periodic " + "uv"[closed.index(True)]
-    for loop in loops:
-        body += f" trim {{ linear_spline {len(loop)}, {', '.join(map(vec, loop))} }}"
-    pieces = spline_pieces([[lifted(*p) for p in row] for row in full], knots, degrees, closed)
-    size = max(abs(x) for row in rows for p, _ in row for x in p)
-    leaf = Net(body + " }", pieces, domain, None, AXES, size, beside_loops(loops) if loops else None, closed)
-    leaf.points = aims_of(rng, leaf, [e for loop in loops for e in zip(loop, loop[1:] + loop[:1])])
-    return leaf
-
-
-def any_patch(rng):
-    """Rational Bezier patches, uniform B-splines, triangles."""
-    wild, weighted = rng.random() < 0.3, rng.random() < 0.6
-    scale = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
-    style = rng.choice(("bezier", "bezier", "b_spline", "bicubic", "triangular", "triangular"))
-    square = ((F(0), F(1)), (F(0), F(1)))
-    if style == "triangular":
-        n = rng.randint(2, 5)
-        rows = grid(rng, n, n, scale, wild, weighted)
-        net = {(i, j): rows[j][i] for j in range(n) for i in range(n - j)}
-        listed = [net[i, j] for j in range(n) for i in range(n - j)]
-        body = f"patch {{ triangular {n}, {words_of(listed, weighted)} }}"
-        leaf = Net(body, [Piece(triangle_net({k: lifted(*p) for k, p in net.items()}, n - 1), *square)], square, None, AXES, 1)
-        leaf.inside = lambda place, a, b: (1 - place[0] - place[1]) * min(a, b)
-        leaf.triangular = True
-        points = [p for p, _ in listed]
-    else:
-        nu, nv = (4, 4) if style == "bicubic" else (rng.randint(2, 5), rng.randint(2, 5))
-        if style == "b_spline":
-            nu, nv = rng.randint(4, 6), rng.randint(4, 6)
-        rows = grid(rng, nu, nv, scale, wild, weighted and style != "bicubic")
-        listed = words_of([p for row in rows for p in row], weighted and style != "bicubic")
-        full = [[lifted(*p) for p in row] for row in rows]
-        points = [p for row in rows for p, _ in row]
-        if style == "b_spline":
-            knots = [[F(k - 3) for k in range(n + 4)] for n in (nu, nv)]
-            domain = tuple((F(0), F(n - 3)) for n in (nu, nv))
-            leaf = Net(f"patch {{ b_spline {nu}, {nv}, {listed} }}", spline_pieces(full, knots, (3, 3), (False, False)), domain, None, AXES, 1)
-        else:
-            body = f"bicubic_patch {{ type {rng.choice((0, 1))} u_steps 2 v_steps 3 {listed} }}" if style == "bicubic" else f"patch {{ {nu}, {nv}, {listed} }}"
-            leaf = Net(body, [Piece(full, *square)], square, None, AXES, 1)
-    leaf.size = max(abs(x) for p in points for x in p)
-    leaf.points = aims_of(rng, leaf)
-    return leaf
-
-
-def triangle_net(net, m):
-    """The net over the square of a triangle's, of degree m along both parameters."""
-    powers = {}
-    for (i, j), p in net.items():
-        # m! / (i! j! k!) u^i v^j (1 - u - v)^k
-        k = m - i - j
-        for a in range(k + 1):
-            for b in range(k - a + 1):
-                factor = comb(m, i) * comb(m - i, j) * (-1) ** (a + b) * comb(k, a) * comb(k - a, b)
-                old = powers.get((i + a, j + b), (F(0),) * 4)
-                powers[i + a, j + b] = tuple(x + factor * y for x, y in zip(old, p))
-    return net_of(powers, m, m)
-
-
-def net_of(powers, n, m):
-    """Bernstein's factors from those of u^a v^b, by rows along v."""
-    def value(i, j):
-        out = (F(0),) * 4
-        for (a, b), p in powers.items():
-            if a <= i and b <= j:
-                factor = F(comb(i, a) * comb(j, b), comb(n, a) * comb(m, b))
-                out = tuple(x + factor * y for x, y in zip(out, p))
-        return out
-
-    return [[value(i, j) for i in range(n + 1)] for j in range(m + 1)]

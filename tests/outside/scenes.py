@@ -9,12 +9,13 @@ from shapes import (
 )
 from fields import Copies, height_field, ifs, terrain_sheet
 from lathes import lathe
-from nets import curved_patch, nurbs
+from parametrics import parametric
 from patches import bilinear, patch
 from prisms import curved_prism, prism, straight_sweep
 from rounded import blob, isosurface, julia, superellipsoid
 from solids import Region, lemon, ovus, sor
 from sphere_sweeps import sphere_sweep
+from splines import curved_patch, nurbs, trimmed
 from zero_sets import ZeroSet, cyclide, polynomial, torus
 
 
@@ -505,7 +506,7 @@ MAKERS |= {
     "sor": sor, "ovus": ovus, "lemon": lemon, "prism": prism, "curved prism": curved_prism,
     "superellipsoid": superellipsoid, "blob": blob, "julia": julia, "isosurface": isosurface, "lathe": lathe, "sphere sweep": sphere_sweep,
     "height field": height_field, "terrain": terrain_sheet, "ifs": ifs,
-    "bilinear": bilinear, "patch": patch, "nurbs": nurbs, "curved patch": curved_patch, "sweep": straight_sweep,
+    "bilinear": bilinear, "patch": patch, "nurbs": nurbs, "trimmed": trimmed, "parametric": parametric, "curved patch": curved_patch, "sweep": straight_sweep,
 }
 
 
