@@ -183,8 +183,8 @@ fn check(world: &World, rays: &Rays8, (hits, met, asked): (&Hits8, M8, M8), tall
                 world.name
             );
             // Where a surface bends within the rounding of coordinates, such as a paraboloid 1e31
-            // away, no start is proven. At tips it is.
-            let is_proven = |p: &SurfacePoint| p.bend.is_infinite() || p.bend * p.off < 0.5;
+            // away, no start is proven, but at tips at which two bodies meet.
+            let is_proven = |p: &SurfacePoint| p.aside != Vec3::ZERO || p.bend * p.off < 0.5;
             let proven = seen.is_some_and(|(_, p)| is_proven(&p));
             starts.smooth.set_lane(i, proven);
             starts.proven.set_lane(i, proven);
