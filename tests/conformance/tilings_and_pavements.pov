@@ -3,7 +3,7 @@
 global_settings { assumed_gamma 1 }
 camera { orthographic location <8, 10, 6> direction -y right 16*x up 12*z }
 #declare Tones = color_map { [0 rgb <0.9, 0.7, 0.4>] [0.3 rgb <0.5, 0.2, 0.1>] [0.6 rgb <0.2, 0.4, 0.7>] [1 rgb 0.95] }
-#macro Show(I, P) box { <-0.95, -1, -0.95>, <0.95, 0, 0.95> pigment { P scale 0.4 } finish { ambient 1 diffuse 0 } translate <1 + 2*mod(I, 8), 0, 1 + 2*int(I/8)> } #end
+#macro Show(I, P) box { <-0.93, -1, -0.93>, <0.93, 0, 0.93> pigment { P scale 0.4 } finish { ambient 1 diffuse 0 } translate <1 + 2*mod(I, 8), 0, 1 + 2*int(I/8)> } #end
 #declare Number = array[18] { 8, 9, 11, 12, 13, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24, 25, 26, 27 }
 #declare I = 0;
 #while (I < 18)
