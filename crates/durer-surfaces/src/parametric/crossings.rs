@@ -31,16 +31,18 @@ pub(super) fn on_border(found: &Found, faces: &[Face]) -> bool {
 /// over. Of several it is a common edge, and both go through it in the same direction.
 fn is_shared(a: &Found, b: &Found, (faces, gap): (&[Face], f64)) -> bool {
     let alike = faces.len() == 1 || a.turn == b.turn && (a.sign == 0) == (b.sign == 0);
-    // Edges that should be one are rounded differently.
-    let room = a.s_err + b.s_err + gap;
+    // Edges that should be one are rounded differently. Where nothing is proven, parts may also lie
+    // beside each other.
+    let unproven = a.sign == 0 && b.sign == 0;
+    let room = (a.s_err + b.s_err) * if unproven { 2.0 } else { 1.0 } + gap;
     alike && (a.s - b.s).abs() <= room && on_border(a, faces) && on_border(b, faces)
 }
 
 /// Joins duplicates: a crossing found in two pieces, on their common border or on a seam, and
 /// unproven parts that touch each other. Edges that coincide are within `gap`.
-pub(super) fn distinct<'f>(found: &'f mut Vec<Found>, faces: &[Face], gap: f64) -> &'f [Found] {
+pub(super) fn distinct(found: &mut Vec<Found>, faces: &[Face], gap: f64) {
     if found.len() < 2 {
-        return found;
+        return;
     }
     // Proven ones first; of those of a seam, the one of the least parameters.
     found.sort_by(|a, b| {
@@ -73,17 +75,16 @@ pub(super) fn distinct<'f>(found: &'f mut Vec<Found>, faces: &[Face], gap: f64) 
         }
     }
     found.truncate(kept);
-    join_all(found);
-    found
+    join_all(found, (faces, gap));
 }
 
-/// Joins unproven parts until none touches another.
-fn join_all(found: &mut Vec<Found>) {
+/// Joins unproven parts until none touches another, also across a seam.
+fn join_all(found: &mut Vec<Found>, edges: (&[Face], f64)) {
     let mut i = 0;
     while i < found.len() {
         let touching = (i + 1..found.len()).find(|&j| {
             let (a, b) = (&found[i], &found[j]);
-            a.sign == 0 && b.sign == 0 && overlap(a, b)
+            a.sign == 0 && b.sign == 0 && (overlap(a, b) || is_shared(a, b, edges))
         });
         match touching {
             Some(j) => {
@@ -99,15 +100,25 @@ fn join_all(found: &mut Vec<Found>) {
 
 /// A box that holds two others, in which nothing is proven.
 fn joined(a: &Found, b: &Found) -> Found {
+    let mut out = united(a, b);
+    if !overlap(a, b) {
+        // Parameters of different maps, and of both sides of a seam, do not mix. Either box is within
+        // twice its radius of the seam, so continued beyond it, a box this large holds both.
+        let reach = |k: usize| if a.face == b.face { 2.0 * a.radius[k] + 3.0 * b.radius[k] } else { 0.0 };
+        out.uv = a.uv;
+        out.radius = [0, 1].map(|k| reach(k).max(a.radius[k]) * (1.0 + 4.0 * U));
+    }
+    out
+}
+
+/// The same for two boxes on one side of a seam.
+pub(super) fn united(a: &Found, b: &Found) -> Found {
     let (mut out, wider) = (*a, 1.0 + 4.0 * U);
-    // Parameters of different maps, and of both sides of a seam, do not mix.
-    if overlap(a, b) {
-        for k in 0..2 {
-            let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
-            let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
-            (out.uv[k], out.radius[k]) =
-                (0.5 * (low + high), 0.5 * (high - low) * wider + U * low.abs().max(high.abs()));
-        }
+    for k in 0..2 {
+        let low = (a.uv[k] - a.radius[k]).min(b.uv[k] - b.radius[k]);
+        let high = (a.uv[k] + a.radius[k]).max(b.uv[k] + b.radius[k]);
+        (out.uv[k], out.radius[k]) =
+            (0.5 * (low + high), 0.5 * (high - low) * wider + U * low.abs().max(high.abs()));
     }
     let (low, high) = ((a.s - a.s_err).min(b.s - b.s_err), (a.s + a.s_err).max(b.s + b.s_err));
     (out.s, out.s_err) = (0.5 * (low + high), 0.5 * (high - low) * wider + U * (low.abs() + high.abs()));

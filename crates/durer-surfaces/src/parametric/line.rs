@@ -50,7 +50,8 @@ pub(super) struct Found {
     pub(super) s_err: f64,
     /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
     pub(super) sign: i8,
-    /// If nothing is proven: that sign at some points nearby, 0 if they differ.
+    /// If nothing is proven: the sum of the signs of what is there, or, if that is unknown, that sign
+    /// at some points nearby, 0 if they differ.
     pub(super) turn: i8,
 }
 
@@ -60,7 +61,7 @@ pub(super) const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
 impl View<'_> {
     /// Both functions at a point, and bounds on the errors of their values.
     #[inline(always)]
-    fn values(&self, p: &[f64; 3], err: &[f64; 3]) -> ([f64; 2], [f64; 2]) {
+    pub(super) fn values(&self, p: &[f64; 3], err: &[f64; 3]) -> ([f64; 2], [f64; 2]) {
         let Line { axes, o, o_err, slope, slope_err, .. } = self.line;
         let of = |k: usize| p[axes[k]] - o[k];
         let off = |k: usize| err[axes[k]] + o_err[k];
@@ -259,15 +260,18 @@ impl View<'_> {
         Found { face: piece.face, uv, radius, only: NOWHERE, s, s_err, sign: 0, turn: self.turn(piece) }
     }
 
+    /// The slopes of both functions at a point, by parameters divided by `width`, rounded.
+    pub(super) fn slopes_at(&self, x: [f64; 2], width: [f64; 2]) -> [[f64; 2]; 2] {
+        let jets = self.face.tape.jet(x);
+        let slope = |c: usize, k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * width[k];
+        self.slopes(&[0, 1, 2].map(|c| [0, 1].map(|k| slope(c, k))), &[[0.0; 2]; 3]).0
+    }
+
     /// The sign of `S_u x S_v . d` in a piece, if it is the same at four points of it.
     fn turn(&self, piece: &Piece) -> i8 {
         let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at: [f64; 2]| {
             let x = [0, 1].map(|k: usize| at[k].mul_add(piece.width[k], piece.own[k][0]));
-            let jets = self.face.tape.jet(x);
-            let j = [0, 1, 2].map(|c: usize| {
-                [0, 1].map(|k: usize| scale2(jets[c].d.d[k], -self.unit.scale) * piece.width[k])
-            });
-            let [a, b] = self.slopes(&j, &[[0.0; 2]; 3]).0;
+            let [a, b] = self.slopes_at(x, piece.width);
             let det = a[0].mul_add(b[1], -(a[1] * b[0])) * self.line.d_z;
             i8::from(det > 0.0) - i8::from(det < 0.0)
         });

@@ -37,6 +37,7 @@ mod bounds;
 mod build;
 mod crossings;
 mod deformed;
+mod degree;
 mod line;
 mod outline;
 mod path;

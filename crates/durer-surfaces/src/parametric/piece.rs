@@ -104,6 +104,11 @@ impl Face {
         face
     }
 
+    /// Whether the formula may be evaluated everywhere in a box.
+    pub(super) fn knows(&self, around: &Domain) -> bool {
+        around.iter().zip(&self.known).all(|([from, to], [first, last])| first <= from && to <= last)
+    }
+
     /// Extends the domain beyond its ends by this fraction of its width.
     pub(super) fn reaching(mut self, part: f64) -> Self {
         for k in 0..2 {

@@ -1,7 +1,8 @@
 //! Maps of rectangles as one surface: their pieces in a tree, and all crossings of a ray, each once.
 
 use super::build::{self, Refused};
-use super::crossings::{distinct, root};
+use super::crossings::{distinct, root, united};
+use super::degree::{self, Sum};
 use super::line::{Found, NOWHERE, View};
 use super::piece::{Face, Piece, Unit};
 use super::{Bounds, subdivide};
@@ -150,7 +151,11 @@ impl Sheet {
         self.meet(&at, &mut lists, range);
         let mut unproven = 0;
         if !lists.found.is_empty() {
-            let found = distinct(&mut lists.found, &self.faces, self.gap);
+            let found = &mut lists.found;
+            distinct(found, &self.faces, self.gap);
+            if found.iter().any(|found| found.sign == 0) {
+                self.add_signs(&Line::new(&at), found);
+            }
             unproven = found.iter().filter(|found| found.sign == 0).count();
             f(&at, found);
         }
@@ -187,7 +192,7 @@ impl Sheet {
     }
 
     fn meet_piece(&self, line: &Line, piece: &Piece, found: &mut Vec<Found>) {
-        let view = View { line, face: &self.faces[piece.face as usize], unit: &self.unit, cut: &self.cut };
+        let view = self.view(line, piece.face);
         let first = found.len();
         match view.content(piece) {
             Content::Nothing => {}
@@ -201,6 +206,34 @@ impl Sheet {
         if found.len() > first {
             self.finish(piece.face, found, first);
         }
+    }
+
+    /// Adds up the signs that unproven crossings stand for, and joins those that only have a sum
+    /// together. At trims no sum is known.
+    #[cold]
+    #[inline(never)]
+    fn add_signs(&self, line: &Line, found: &mut Vec<Found>) {
+        let mut i = 0;
+        while i < found.len() {
+            let face = found[i].face;
+            if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
+                match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
+                    Sum::Certain(sum) => found[i].turn = sum,
+                    Sum::With(j) => {
+                        found[i] = united(&found[i], &found[j]);
+                        found.swap_remove(j);
+                        i = 0;
+                        continue;
+                    }
+                    Sum::Unknown => {}
+                }
+            }
+            i += 1;
+        }
+    }
+
+    fn view<'a>(&'a self, line: &'a Line, face: u32) -> View<'a> {
+        View { line, face: &self.faces[face as usize], unit: &self.unit, cut: &self.cut }
     }
 
     /// Leaves out crossings of a map, from the first of these on, that are cut off, and turns the

@@ -104,7 +104,7 @@ fn along_slowest(view: &View<'_>, part: &Piece) -> Slow {
 
 /// The combination of both functions that changes most slowly: the left singular vector of the
 /// slopes.
-fn slowest(j: &[[f64; 2]; 2]) -> [f64; 2] {
+pub(super) fn slowest(j: &[[f64; 2]; 2]) -> [f64; 2] {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0].mul_add(b[0], a[1] * b[1]);
     let (p, q, r) = (dot(j[0], j[0]), dot(j[0], j[1]), dot(j[1], j[1]));
     // The direction of the larger eigenvalue of J J'.

@@ -187,6 +187,37 @@ fn a_parametric_torus_is_a_torus() {
     assert!(median < 64.0, "{median}");
 }
 
+/// A line enters a torus as often as it leaves it, so the signs of all crossings add up to zero, also
+/// if some are unproven.
+#[test]
+fn signs_add_up_along_tangents() {
+    let ours = torus(1.0, 0.25);
+    let (mut rays, mut off) = (0, Vec::new());
+    for case in drawn(4000) {
+        let mut dice = dice(3, case);
+        let ((sa, ca), (sb, cb)) = (angle(&mut dice), angle(&mut dice));
+        let n = Vec3::new(cb * ca, sb, cb * sa);
+        let p = Vec3::new(ca, 0.0, sa) + n * 0.25;
+        let direction = n.cross(dice.vector());
+        if direction == Vec3::ZERO {
+            continue;
+        }
+        let back = dice.pick(&[0.5, 3.0, 1000.0, 1e6]);
+        let ray = Ray::new((p - direction * back).to_point(), direction).with_range(-1e9, 1e9);
+        rays += 1;
+        let found = all_roots(&ours, &ray);
+        if found.iter().map(|root| i32::from(root.sign)).sum::<i32>() != 0 {
+            off.push((ray, found));
+        }
+    }
+    println!("{} of {rays} do not add up", off.len());
+    report(rays);
+    // From 1e6 away a torus is flat along its highest circle within the rounding of the ray, and no
+    // border around a part of that circle is certain: 2 of these 4000 rays. Five standard deviations
+    // more are 9.
+    assert!(off.len() <= 9, "{:?}", off[0]);
+}
+
 #[test]
 fn a_parametric_cylinder_is_a_cylinder() {
     let (mut p, u, v) = Pen::new();
