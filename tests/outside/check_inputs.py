@@ -171,7 +171,7 @@ def wrong_values(x):
         "blob { threshold 1 }": "no components", "blob { threshold -1 sphere { 0, 1, 1 } }": "greater than 0", "blob { sphere { 0, 1, 2 texture { gradient x } } }": "has no textures", "blob { sphere { 0, 1, 2 interior { ior 1.5 } } }": "a transform or the texture of the component",
         "deform { blob { sphere { 0, 1, 2 pigment { rgb 1 } } } twist { y, 90, from 0 to 1 } }": "whose components have textures",
         "julia_fractal { <0, 0, 0, 0> slice x, 0 }": "fourth component", "julia_fractal { <0, 0, 0, 0> max_iteration -1 }": "0 to 1000", "julia_fractal { 0 hypercomplex exp }": "not supported yet: exp", "superellipsoid { <0, 1> }": "between", "superellipsoid { <1, -1> }": "between", "superellipsoid { }": "", "blob { cylinder { 0, 0, 1, 1 } }": "same point", "isosurface { function { f_nowhere(x) } }": "f_nowhere",
-        "camera { omnimax }": None, "sphere { 0, 1 pigment { pavement } }": "not supported yet: pavement", "sphere { 0, 1 pigment { image_map { png \"x.png\" } } }": "there is no picture", "sphere { 0, 1 pigment { image_map { png \"/dev/zero\" } } }": "is not a regular file", "#fopen F \"/tmp/durer-outside\" write": "relative path without", "#fopen F \"../durer-outside\" append": "relative path without", "#fopen F \"/dev/zero\" read": "is not a regular file", "#fopen F \"a.txt\" write #while (1) #write (F, \"0123456789\") #end": "the limit",
+        "camera { omnimax }": None, "sphere { 0, 1 pigment { spacing } }": "not supported yet: spacing", "sphere { 0, 1 pigment { image_map { png \"x.png\" } } }": "there is no picture", "sphere { 0, 1 pigment { image_map { png \"/dev/zero\" } } }": "is not a regular file", "#fopen F \"/tmp/durer-outside\" write": "relative path without", "#fopen F \"../durer-outside\" append": "relative path without", "#fopen F \"/dev/zero\" read": "is not a regular file", "#fopen F \"a.txt\" write #while (1) #write (F, \"0123456789\") #end": "the limit",
         "#declare A = array[3] { 1, 2 }; sphere { 0, A[7] }": "", "#declare A = array[1e12]": "", "#declare A = array[0]": "", "sphere { Nothing, 1 }": "Nothing",
         "sphere { 0, 1 } }": "", "} sphere { 0, 1 }": "", "sphere { 0, 1": "", "#end": "", "#else": "", "#if (1) sphere { 0, 1 }": "", "#macro M() sphere { 0, 1 }": "",
         "/* never closed": "", '"never closed': "", "#declare A = \"x": "", "#nonsense": "", "#declare = 3;": "", "#declare A 3;": "", "#include": "", '#include ""': "",
@@ -230,7 +230,7 @@ def wrong_values(x):
     x.scene("no camera", "sphere { 0, 1 }", code=0, says=["warning", "camera"])
     places = {
         "sphere { 0, 1 }\n  bicubic_patch { 1 }\n": (2, 3), "sphere { 0, 1\n}\n\tsphere { 0, 1/0 }\n": None, "#declare A = 3;\nsphere { A, B }\n": (2, 13),
-        "\n\n   sphere { 0, 1 pigment { pavement } }": (3, 28), "/* a\n b */ bicubic_patch { 1 }": (2, 7), "#macro M()\n  bicubic_patch { 1 }\n#end\nM()\n": (2, 3),
+        "\n\n   sphere { 0, 1 pigment { spacing } }": (3, 28), "/* a\n b */ bicubic_patch { 1 }": (2, 7), "#macro M()\n  bicubic_patch { 1 }\n#end\nM()\n": (2, 3),
         "#if (1)\n#while (0)\n#end\n": None, "sphere { 0, 1 }\r\n\r\nbicubic_patch { 1 }\r\n": (3, 1), "// \xe4\xf6\xfc\nsphere { 0, 1 } /* \xe9 */ bicubic_patch { 1 }": (2, 25),
     }
     for words, at in places.items():
