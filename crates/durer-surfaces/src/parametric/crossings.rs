@@ -111,7 +111,7 @@ fn joined(a: &Found, b: &Found) -> Found {
     out
 }
 
-/// The same for two boxes on one side of a seam.
+/// A box that holds two others of one map, in which nothing is proven.
 pub(super) fn united(a: &Found, b: &Found) -> Found {
     let (mut out, wider) = (*a, 1.0 + 4.0 * U);
     for k in 0..2 {

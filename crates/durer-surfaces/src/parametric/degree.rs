@@ -7,31 +7,32 @@
 //! line meets the map twice there or misses it, and 1 or -1 where it leads through.
 //!
 //! The border has to be so far away that `F` is certainly not zero there: the box is doubled until it
-//! is. The turns are counted by the combination of both functions that changes most slowly, and by
-//! the one across it: where the former changes its sign, the latter has a certain one.
+//! is. The border is cut into stretches on each of which one of two combinations of both functions has
+//! a certain sign, so that `F` stays in a half plane: the one that changes most slowly, and the one
+//! across it. The half planes of neighbours have a point in common, so their directions differ by
+//! less than half a turn, and these differences add up to the turns.
 
 use super::line::{Found, View};
-use super::piece::Domain;
-use super::subdivide::slowest;
-use durer_formula::lanes;
-use durer_math::U;
+use super::piece::{Domain, Piece, halves};
+use super::subdivide::{Reach, slowest};
 
-/// The border is examined at so many points of each side; at more if these leave the turns open.
-const POINTS: [usize; 2] = [32, 512];
 /// By how much the box is enlarged. Twice as large, `F` beside a tangent is four times as large as
 /// in the unproven box.
 const SIZES: [f64; 4] = [2.0, 4.0, 8.0, 16.0];
+/// The most stretches of a border without a certain half plane, and how often they are halved.
+const MOST_OPEN: usize = 128;
+const HALVINGS: usize = 16;
 
-/// What an unproven crossing stands for.
+/// The signs of the crossings that one unproven crossing represents.
 pub(super) enum Sum {
     /// The sum of the signs of all crossings there.
     Certain(i8),
-    /// Only together with another unproven one, of this index, there may be a sum.
-    With(usize),
+    /// Another unproven crossing, of this index, is too near for a sum of its own.
+    Near(usize),
     Unknown,
 }
 
-/// The sum of the signs of the crossings that the unproven one `found[i]` stands for. `turned` says
+/// The sum of the signs of the crossings that the unproven one `found[i]` represents. `turned` says
 /// whether signs are those of the map with the opposite normal.
 #[cold]
 #[inline(never)]
@@ -52,7 +53,7 @@ pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: b
             })
         };
         if let Some((j, _)) = others().find(|(_, other)| other.sign == 0 && holds(other, -1.0)) {
-            return Sum::With(j);
+            return Sum::Near(j);
         }
         if others().any(|(_, other)| holds(other, -1.0) && !holds(other, 1.0)) {
             continue;
@@ -69,7 +70,7 @@ pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: b
 }
 
 /// How many times `F` turns around zero along the border of a box, by the orientation of the
-/// parameters.
+/// parameters; `None` if it may be zero there.
 fn degree(view: &View<'_>, around: &Domain) -> Option<i32> {
     if !view.face.knows(around) {
         return None;
@@ -77,96 +78,121 @@ fn degree(view: &View<'_>, around: &Domain) -> Option<i32> {
     let middle = around.map(|[from, to]| 0.5 * from + 0.5 * to);
     let width = around.map(|[from, to]| to - from);
     let slow = slowest(&view.slopes_at(middle, width));
-    POINTS.into_iter().find_map(|points| turns(&signs_along(view, slow, &border(around, points))?))
-}
-
-/// The certain signs of both combinations at points, that across `slow` first; `None` if the map is
-/// undefined at one of them.
-fn signs_along(view: &View<'_>, slow: [f64; 2], points: &[[f64; 2]]) -> Option<Vec<[i8; 2]>> {
-    let mut signs = Vec::with_capacity(points.len());
-    for points in points.chunks(8) {
-        let boxes: [Domain; 8] = core::array::from_fn(|k| points[k.min(points.len() - 1)].map(|x| [x, x]));
-        let values = view.face.tape.bounds(&lanes(&boxes));
-        for lane in 0..points.len() {
-            let (mut p, mut p_err) = ([0.0; 3], [0.0; 3]);
-            for c in 0..3 {
-                if values[c].empty >> lane & 1 == 1 {
-                    return None;
-                }
-                (p[c], p_err[c]) = view.unit.place(values[c].lane(lane), c);
-            }
-            let (f, e) = view.values(&p, &p_err);
-            signs.push([certain_sign([slow[1], -slow[0]], f, e), certain_sign(slow, f, e)]);
+    let mut border: Vec<Stretch> = SIDES.iter().map(|side| side.of(around)).collect();
+    let (mut boxes, mut pieces) = (Vec::new(), Vec::new());
+    for _ in 0..HALVINGS {
+        border = border.into_iter().flat_map(Stretch::halves).flatten().collect();
+        boxes.clear();
+        boxes.extend(border.iter().filter(|stretch| stretch.eighth.is_none()).map(|stretch| stretch.own));
+        if boxes.is_empty() {
+            return turns(border.iter().filter_map(|stretch| stretch.eighth));
         }
-    }
-    Some(signs)
-}
-
-/// Points of a box's border in their order, the first parameter growing first: `count` of each side.
-fn border(around: &Domain, count: usize) -> Vec<[f64; 2]> {
-    let [[left, right], [low, high]] = *around;
-    let corners = [[left, low], [right, low], [right, high], [left, high]];
-    let mut points = Vec::with_capacity(4 * count);
-    for (from, to) in corners.into_iter().zip([corners[1], corners[2], corners[3], corners[0]]) {
-        points.extend((0..count).map(|n| {
-            let part = n as f64 / count as f64;
-            [0, 1].map(|k: usize| from[k] + part * (to[k] - from[k]))
-        }));
-    }
-    points
-}
-
-/// The sign of a combination of both functions, 0 if the errors hide it.
-fn certain_sign(by: [f64; 2], f: [f64; 2], e: [f64; 2]) -> i8 {
-    let terms = [by[0] * f[0], by[1] * f[1]];
-    let size = terms[0].abs() + terms[1].abs();
-    let err = (by[0].abs() * e[0] + by[1].abs() * e[1] + 2.0 * U * size) * (1.0 + 8.0 * U);
-    let value = terms[0] + terms[1];
-    i8::from(value > err) - i8::from(value < -err)
-}
-
-/// How often a closed curve in the plane turns around the origin, by the signs of its points'
-/// coordinates, 0 where they are unknown: the number of times that it crosses the positive half of
-/// the first axis. `None` if it may pass through the origin.
-fn turns(signs: &[[i8; 2]]) -> Option<i32> {
-    let begin = signs.iter().position(|[_, y]| *y != 0)?;
-    let (mut last, mut turns) = (signs[begin], 0);
-    // The sign of the first coordinate since the second one was last known.
-    let mut side = last[0];
-    for k in 1..=signs.len() {
-        let [x, y] = signs[(begin + k) % signs.len()];
-        if y == last[1] {
-            (last, side) = ([x, y], x);
-            continue;
-        }
-        // Between here and `last` the curve crosses the first axis, or may do so.
-        if x == 0 || x != side {
+        pieces.clear();
+        view.face.pieces(0, &boxes, view.unit, &mut pieces);
+        if boxes.len() > MOST_OPEN || pieces.len() < boxes.len() {
             return None;
         }
-        if y != 0 {
-            turns += i32::from(x > 0) * i32::from(y);
-            last = [x, y];
+        let open = border.iter_mut().filter(|stretch| stretch.eighth.is_none());
+        for (stretch, piece) in open.zip(&pieces) {
+            stretch.eighth = eighth(view, slow, piece);
         }
     }
-    Some(turns)
+    None
+}
+
+/// A stretch of the border of a box.
+#[derive(Clone, Copy)]
+struct Stretch {
+    own: Domain,
+    /// The parameter that changes, and whether it falls on the way around the box.
+    along: usize,
+    falls: bool,
+    /// The direction in whose half plane `F` stays, in eighths of a turn.
+    eighth: Option<i32>,
+}
+
+/// A side of a box: the parameter that changes, the end at which the other one is, and whether the
+/// former falls.
+struct BoxSide(usize, usize, bool);
+
+/// The way around a box, the first parameter growing first.
+const SIDES: [BoxSide; 4] =
+    [BoxSide(0, 0, false), BoxSide(1, 1, false), BoxSide(0, 1, true), BoxSide(1, 0, true)];
+
+impl BoxSide {
+    fn of(&self, around: &Domain) -> Stretch {
+        let Self(along, end, falls) = *self;
+        let mut own = *around;
+        own[1 - along] = [around[1 - along][end]; 2];
+        Stretch { own, along, falls, eighth: None }
+    }
+}
+
+impl Stretch {
+    /// Itself, or both halves if its half plane is unknown, in their order.
+    fn halves(self) -> [Option<Self>; 2] {
+        if self.eighth.is_some() {
+            return [Some(self), None];
+        }
+        let [mut first, mut second] = halves(&self.own, self.along);
+        if self.falls {
+            (first, second) = (second, first);
+        }
+        [first, second].map(|own| Some(Self { own, ..self }))
+    }
+}
+
+/// The direction of a half plane, or a quarter, that holds `F` on a piece of the border, in eighths of
+/// a turn: the combination `slow` is the second coordinate, that across it the first.
+fn eighth(view: &View<'_>, slow: [f64; 2], piece: &Piece) -> Option<i32> {
+    let local = view.local(piece);
+    let sign = |by| Reach::new(by, &local, piece.half()).sign();
+    match (sign([slow[1], -slow[0]]), sign(slow)) {
+        (1, 0) => Some(0),
+        (1, 1) => Some(1),
+        (0, 1) => Some(2),
+        (-1, 1) => Some(3),
+        (-1, 0) => Some(4),
+        (-1, -1) => Some(5),
+        (0, -1) => Some(6),
+        (1, -1) => Some(7),
+        _ => None,
+    }
+}
+
+/// How often a closed curve turns around the origin, by the directions of half planes, each of which
+/// holds a stretch of it, in eighths of a turn.
+fn turns(eighths: impl Iterator<Item = i32> + Clone) -> Option<i32> {
+    let next = eighths.clone().skip(1).chain(eighths.clone().take(1));
+    let mut sum = 0;
+    for (from, to) in eighths.zip(next) {
+        let by = (to - from).rem_euclid(8);
+        if by == 4 {
+            // Opposite half planes have no point in common.
+            return None;
+        }
+        sum += if by > 4 { by - 8 } else { by };
+    }
+    Some(sum / 8)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn turns_of(eighths: &[i32]) -> Option<i32> {
+        turns(eighths.iter().copied())
+    }
+
     #[test]
-    fn turns_of_polygons_around_the_origin() {
-        let circle = [[1, -1], [1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1]];
-        assert_eq!(turns(&circle), Some(1));
-        let mut back = circle;
-        back.reverse();
-        assert_eq!(turns(&back), Some(-1));
-        assert_eq!(turns(&[circle, circle].concat()), Some(2));
+    fn turns_of_curves_around_the_origin() {
+        assert_eq!(turns_of(&[0, 1, 2, 3, 4, 5, 6, 7]), Some(1));
+        assert_eq!(turns_of(&[7, 6, 5, 4, 3, 2, 1, 0]), Some(-1));
+        assert_eq!(turns_of(&[0, 3, 6, 1, 4, 7, 2, 5]), Some(3));
+        assert_eq!(turns_of(&[0, 2, 4, 6]), Some(1));
         // Beside the origin, and past it both ways.
-        assert_eq!(turns(&[[1, -1], [1, 1], [1, 0], [1, -1]]), Some(0));
-        assert_eq!(turns(&[[-1, -1], [-1, 1], [0, 1], [1, 1], [0, 1]]), None);
-        assert_eq!(turns(&[[1, 1], [0, 0], [-1, 1]]), None);
-        assert_eq!(turns(&[[1, 0], [1, 0]]), None);
+        assert_eq!(turns_of(&[7, 0, 1, 2, 1]), Some(0));
+        assert_eq!(turns_of(&[6, 4, 2, 4]), Some(0));
+        assert_eq!(turns_of(&[0, 4]), None);
     }
 }

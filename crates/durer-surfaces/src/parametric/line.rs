@@ -61,7 +61,7 @@ pub(super) const NOWHERE: Domain = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
 impl View<'_> {
     /// Both functions at a point, and bounds on the errors of their values.
     #[inline(always)]
-    pub(super) fn values(&self, p: &[f64; 3], err: &[f64; 3]) -> ([f64; 2], [f64; 2]) {
+    fn values(&self, p: &[f64; 3], err: &[f64; 3]) -> ([f64; 2], [f64; 2]) {
         let Line { axes, o, o_err, slope, slope_err, .. } = self.line;
         let of = |k: usize| p[axes[k]] - o[k];
         let off = |k: usize| err[axes[k]] + o_err[k];

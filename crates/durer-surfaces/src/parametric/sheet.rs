@@ -208,8 +208,8 @@ impl Sheet {
         }
     }
 
-    /// Adds up the signs that unproven crossings stand for, and joins those that only have a sum
-    /// together. At trims no sum is known.
+    /// Adds up the signs of what unproven crossings represent, and joins those that are too near each
+    /// other for sums of their own. At trims no sum is known.
     #[cold]
     #[inline(never)]
     fn add_signs(&self, line: &Line, found: &mut Vec<Found>) {
@@ -219,7 +219,7 @@ impl Sheet {
             if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
                 match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
                     Sum::Certain(sum) => found[i].turn = sum,
-                    Sum::With(j) => {
+                    Sum::Near(j) => {
                         found[i] = united(&found[i], &found[j]);
                         found.swap_remove(j);
                         i = 0;

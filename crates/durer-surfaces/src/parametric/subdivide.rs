@@ -6,7 +6,7 @@ use super::line::{Found, View};
 use super::piece::{Domain, Piece, halves};
 use durer_math::U;
 use durer_math::scale::pow2;
-use durer_roots::two_unknowns::{Content, ROUNDED};
+use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED};
 
 /// The most times that parts of a piece are cut for one ray; the rest stays unresolved. A tangent
 /// needs some dozens.
@@ -83,22 +83,45 @@ enum Slow {
 }
 
 fn along_slowest(view: &View<'_>, part: &Piece) -> Slow {
-    let (local, limits) = view.local(part);
-    let slow = slowest(&local.j);
-    let sum = |x: [f64; 2]| slow[0].abs() * x[0].abs() + slow[1].abs() * x[1].abs();
-    let value = slow[0].mul_add(local.f[0], slow[1] * local.f[1]).abs();
-    let change: f64 = (0..2).map(|k| slow[0].mul_add(local.j[0][k], slow[1] * local.j[1][k]).abs()).sum();
-    // The combination itself rounds.
-    let rounding =
-        4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
-    let reach = part.half() * (change + 2.0 * sum(limits.e_j)) + rounding;
-    let noise = sum(limits.e);
-    if value > (reach + noise) * ROUNDED {
+    let local = view.local(part);
+    let reach = Reach::new(slowest(&local.0.j), &local, part.half());
+    if reach.sign() != 0 {
         Slow::Clear
-    } else if (value + reach) * ROUNDED <= NOISE * (noise + rounding) {
+    } else if (reach.value.abs() + reach.change) * ROUNDED <= NOISE * (reach.noise + reach.rounding) {
         Slow::Noise
     } else {
         Slow::Unknown
+    }
+}
+
+/// The values of a combination of both functions on a piece.
+pub(super) struct Reach {
+    /// The value in the middle.
+    value: f64,
+    /// A bound on how far other values are from it, rounding included.
+    change: f64,
+    /// A bound on the error of the values, and on the rounding of the combination.
+    noise: f64,
+    rounding: f64,
+}
+
+impl Reach {
+    /// On a piece with this local data and this half of its width.
+    pub(super) fn new(by: [f64; 2], (local, limits): &(Local, Limits), half: f64) -> Self {
+        let sum = |x: [f64; 2]| by[0].abs() * x[0].abs() + by[1].abs() * x[1].abs();
+        let value = by[0].mul_add(local.f[0], by[1] * local.f[1]);
+        let change: f64 = (0..2).map(|k| by[0].mul_add(local.j[0][k], by[1] * local.j[1][k]).abs()).sum();
+        // The combination itself rounds.
+        let rounding =
+            4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
+        let change = half * (change + 2.0 * sum(limits.e_j)) + rounding;
+        Self { value, change, noise: sum(limits.e), rounding }
+    }
+
+    /// The sign of all values, 0 if it is not certain.
+    pub(super) fn sign(&self) -> i8 {
+        let far = (self.change + self.noise) * ROUNDED;
+        i8::from(self.value > far) - i8::from(self.value < -far)
     }
 }
 
