@@ -13,7 +13,7 @@ from fractions import Fraction as F
 from pathlib import Path
 
 import numpy as np
-from check_trace import COLUMNS, Wrong, trace
+from command import COLUMNS, Wrong, trace
 from exact import complement, union
 from scenes import box_forms
 from shapes import IDENTITY, Form, Map, Solid, distance_form, halfspace, text, vec, wall_form

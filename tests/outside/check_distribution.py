@@ -11,7 +11,6 @@ import argparse
 import collections
 import concurrent.futures
 import gzip
-import os
 import re
 import shutil
 import subprocess

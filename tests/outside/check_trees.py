@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import scenes
-from check_trace import Wrong, trace
+from command import Wrong, trace
 from shapes import IDENTITY
 
 INF = math.inf

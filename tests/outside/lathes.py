@@ -10,8 +10,8 @@ from fractions import Fraction as F
 from exact import Number, complement, sign
 from prisms import OnCurve, eliminated
 from shapes import Answer, Event, dot, text
-from solids import Region, at, grouped, between, minus, places, plus, root_of, scaled, whole
-from zero_sets import TURNS, multiply, near, real_roots, trim
+from solids import Region, at, grouped, between, minus, places, plus, scaled, whole
+from zero_sets import TURNS, multiply, near, real_roots
 
 
 def slope(p):

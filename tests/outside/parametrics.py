@@ -5,7 +5,7 @@ On a quarter of a turn about its middle, a cosine is (1 - s s) / (1 + s s) and a
 """
 
 from fractions import Fraction as F
-from math import comb, pi, sqrt
+from math import sqrt
 
 import mpmath
 

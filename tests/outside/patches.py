@@ -9,8 +9,8 @@ from fractions import Fraction as F
 from math import comb
 
 from lathes import Image, slope
-from exact import Number, sign
-from shapes import Answer, Event, cross, dot, sub, text, vec
+from exact import sign
+from shapes import Answer, Event, cross, dot, sub, vec
 from solids import Region, at, grouped, minus, places, plus, scaled, whole
 from zero_sets import multiply, near, real_roots
 

@@ -194,7 +194,8 @@ def between(roots):
     out = [min(ends) - abs(min(ends)) / 1024 - 1]
     for a, b in zip(roots, roots[1:]):
         for bits in (64, 200, 800, 3200, 12800):
-            x, y = a.rational(bits), b.rational(bits)
+            a.rational(bits)
+            b.rational(bits)
             if a.r < b.l:
                 break
         out.append((a.r + b.l) / 2)

@@ -125,7 +125,6 @@ def any_nurbs(rng, style, curves=None):
     wild, weighted = rng.random() < 0.3, rng.random() < 0.6
     scale = F(2) ** rng.choice((0, 0, -6, 4, -20, 20))
     closed = (False, False)
-    words = []
     if style == "turned":
         # About y, with a seam; the rows may begin and end on the axis.
         degrees = (2, rng.choice((1, 2, 3)))
@@ -135,13 +134,11 @@ def any_nurbs(rng, style, curves=None):
             profile[0] = (F(0), *profile[0][1:])
         rows = [[(tuple(scale * x for x in (r * c, y, r * s)), w * k) for c, s, k in QUARTERS] for r, y, w in profile]
         knots, weighted, closed = [ARCS, knots_of(rng, n, degrees[1])], True, (True, False)
-        words = ["u_knots", "v_knots"]
     else:
         degrees = (rng.randint(1, 4), rng.randint(1, 4))
         counts = [d + rng.randint(1, 4) for d in degrees]
         rows = grid(rng, *counts, scale, wild, weighted)
         knots = [knots_of(rng, n, d) for n, d in zip(counts, degrees)]
-        words = ["u_knots", "v_knots"]
     count = (len(rows[0]), len(rows))
     listed = [("u_knots", knots[0]), ("v_knots", knots[1])]
     if style == "periodic":

@@ -9,7 +9,6 @@ from fractions import Fraction as F
 from heapq import heapify, heappop, heappush
 from math import cos, pi, sin
 
-from exact import sign
 from shapes import text, vec
 
 BITS = 320
