@@ -100,15 +100,17 @@ fn join_all(found: &mut Vec<Found>, edges: (&[Face], f64)) {
 
 /// A box that holds two others, in which nothing is proven.
 fn joined(a: &Found, b: &Found) -> Found {
-    let mut out = united(a, b);
-    if !overlap(a, b) {
-        // Parameters of different maps, and of both sides of a seam, do not mix. Either box is within
-        // twice its radius of the seam, so continued beyond it, a box this large holds both.
-        let reach = |k: usize| if a.face == b.face { 2.0 * a.radius[k] + 3.0 * b.radius[k] } else { 0.0 };
-        out.uv = a.uv;
-        out.radius = [0, 1].map(|k| reach(k).max(a.radius[k]) * (1.0 + 4.0 * U));
-    }
-    out
+    if overlap(a, b) { united(a, b) } else { joined_across(a, b, 2.0) }
+}
+
+/// The same for two boxes on different maps, or on both sides of a seam, across which they meet if
+/// both are enlarged to `size` times their radii. Their parameters do not mix: the box is that of
+/// `a`, continued beyond the seam as far as `b`.
+pub(super) fn joined_across(a: &Found, b: &Found, size: f64) -> Found {
+    let reach =
+        |k: usize| if a.face == b.face { size * (a.radius[k] + b.radius[k]) + b.radius[k] } else { 0.0 };
+    let radius = [0, 1].map(|k| reach(k).max(a.radius[k]) * (1.0 + 4.0 * U));
+    Found { uv: a.uv, radius, ..united(a, b) }
 }
 
 /// A box that holds two others of one map, in which nothing is proven.

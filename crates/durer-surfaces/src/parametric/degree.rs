@@ -12,6 +12,7 @@
 //! across it. The half planes of neighbours have a point in common, so their directions differ by
 //! less than half a turn, and these differences add up to the turns.
 
+use super::crossings::{joined_across, united};
 use super::line::{Found, View};
 use super::piece::{Domain, Piece, halves};
 use super::subdivide::{Reach, slowest};
@@ -27,23 +28,37 @@ const HALVINGS: usize = 16;
 pub(super) enum Sum {
     /// The sum of the signs of all crossings there.
     Certain(i8),
-    /// Another unproven crossing, of this index, is too near for a sum of its own.
-    Near(usize),
+    /// The unproven crossing of this index is too near for a sum of its own; this one holds both.
+    Near(usize, Found),
     Unknown,
 }
 
 /// The sum of the signs of the crossings that the unproven one `found[i]` represents. `turned` says
-/// whether signs are those of the map with the opposite normal.
+/// whether signs are those of the map with the opposite normal, `is_alone` whether there is no other
+/// map: then its borders are seams, where the map comes back to itself.
 #[cold]
 #[inline(never)]
-pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: bool) -> Sum {
+pub(super) fn sum_of_signs(
+    view: &View<'_>,
+    found: &[Found],
+    i: usize,
+    (turned, is_alone): (bool, bool),
+) -> Sum {
     let own = &found[i];
     let others = || found.iter().enumerate().filter(|&(j, other)| j != i && other.face == own.face);
     for size in SIZES {
-        let around = [0, 1].map(|k: usize| {
-            let by = size * own.radius[k];
-            [own.uv[k] - by, own.uv[k] + by]
-        });
+        let enlarged = |found: &Found| {
+            [0, 1].map(|k: usize| {
+                let by = size * found.radius[k];
+                [found.uv[k] - by, found.uv[k] + by]
+            })
+        };
+        let (around, domain) = (enlarged(own), view.face.domain);
+        let beyond = [0, 1]
+            .map(|k: usize| [(domain[k][0] - around[k][0]).max(0.0), (around[k][1] - domain[k][1]).max(0.0)]);
+        if beyond != [[0.0; 2]; 2] && !is_alone {
+            break;
+        }
         let Some(degree) = degree(view, &around) else { continue };
         // Whether another one's box is in this one, made smaller by a part of the other's radius.
         let holds = |other: &Found, part: f64| {
@@ -52,10 +67,25 @@ pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: b
                 from + room <= other.uv[k] && other.uv[k] <= to - room
             })
         };
-        if let Some((j, _)) = others().find(|(_, other)| other.sign == 0 && holds(other, -1.0)) {
-            return Sum::Near(j);
+        // Whether another one, as much enlarged, reaches this box across a seam.
+        let is_across = |other: &Found| {
+            let box_of_other = enlarged(other);
+            let reaches = |k: usize| {
+                let ([low, high], [from, to], [first, last]) = (beyond[k], box_of_other[k], domain[k]);
+                low > 0.0 && to >= last - low || high > 0.0 && from <= first + high
+            };
+            (reaches(0) || reaches(1)) && (own.s - other.s).abs() <= size * (own.s_err + other.s_err)
+        };
+        let mut unproven = others().filter(|(_, other)| other.sign == 0);
+        if let Some((j, other)) = unproven.clone().find(|(_, other)| holds(other, -1.0)) {
+            return Sum::Near(j, united(own, other));
         }
-        if others().any(|(_, other)| holds(other, -1.0) && !holds(other, 1.0)) {
+        if let Some((j, other)) = unproven.find(|(_, other)| is_across(other)) {
+            return Sum::Near(j, joined_across(own, other, size));
+        }
+        let is_unclear =
+            |other: &Found| if holds(other, -1.0) { !holds(other, 1.0) } else { is_across(other) };
+        if others().any(|(_, other)| is_unclear(other)) {
             continue;
         }
         let proven: i32 =

@@ -1,7 +1,7 @@
 //! Maps of rectangles as one surface: their pieces in a tree, and all crossings of a ray, each once.
 
 use super::build::{self, Refused};
-use super::crossings::{distinct, root, united};
+use super::crossings::{distinct, root};
 use super::degree::{self, Sum};
 use super::line::{Found, NOWHERE, View};
 use super::piece::{Face, Piece, Unit};
@@ -217,10 +217,11 @@ impl Sheet {
         while i < found.len() {
             let face = found[i].face;
             if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
-                match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
+                let sides = (self.is_turned(face), self.faces.len() == 1);
+                match degree::sum_of_signs(&self.view(line, face), found, i, sides) {
                     Sum::Certain(sum) => found[i].turn = sum,
-                    Sum::Near(j) => {
-                        found[i] = united(&found[i], &found[j]);
+                    Sum::Near(j, both) => {
+                        found[i] = both;
                         found.swap_remove(j);
                         i = 0;
                         continue;
