@@ -451,6 +451,10 @@ impl Oracle for Cached<'_> {
         self.crossings.get(line, || self.oracle.crossings(line))
     }
 
+    fn knows(&self, line: &ExactLine) -> bool {
+        self.oracle.knows(line)
+    }
+
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
         self.oracle.face_side(face, point)
     }
@@ -487,6 +491,11 @@ pub struct Crossing {
 pub trait Oracle {
     /// All crossings with a line, ascending, each once.
     fn crossings(&self, line: &ExactLine) -> Vec<Crossing>;
+
+    /// Whether `crossings` is known for this line.
+    fn knows(&self, _: &ExactLine) -> bool {
+        true
+    }
 
     /// The side of a face (numbered as in `Root::face`) on which a point lies: `Greater` where its
     /// normal points.

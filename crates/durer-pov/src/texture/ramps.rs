@@ -289,7 +289,7 @@ impl Parser<'_> {
                 return Err(Error::invalid(place, text));
             }
             NumberOfSides => pavement.sides = number as u8,
-            // What is too large stays too large, and is refused with the whole pattern.
+            // `as` rounds a number beyond 255 to 255, which `Pavement` refuses, too.
             NumberOfTiles => pavement.tiles = number as u8,
             _ => pavement.pattern = number as u8,
         }

@@ -183,6 +183,9 @@ pub fn roots_are_the_exact_crossings(
     surface.send(&local, &mut sink);
     let roots = sink.roots;
     let line = ExactLine::new(ray);
+    if !oracle.knows(&line) {
+        return Ok(roots);
+    }
     let inside = |t: &Surd| {
         (!ray.t_min.is_finite() || t.cmp_exact(&ray.t_min.into()).is_ge())
             && (!ray.t_max.is_finite() || t.cmp_exact(&ray.t_max.into()).is_le())
@@ -441,12 +444,17 @@ fn point_is_near(
             error.to_f64(),
             point.dp[i]
         );
-        let above = |end: f64| !end.is_finite() || (&(exact - &end.into()) - slack).sign().is_ge();
-        let below = |end: f64| !end.is_finite() || (&(exact - &end.into()) + slack).sign().is_le();
-        ensure!(
-            above(bounds.min[i]) && below(bounds.max[i]),
-            "the crossing is outside the bounds {bounds:?}: {point:?}"
-        );
+        let ends = [
+            (bounds.min[i], &Exact::from(bounds.min[i]) - exact),
+            (bounds.max[i], exact - &bounds.max[i].into()),
+        ];
+        for (end, beyond) in ends.iter().filter(|(end, _)| end.is_finite()) {
+            ensure!(
+                (beyond + slack).sign().is_le(),
+                "the crossing is {} beyond {end}, an end of the bounds along axis {i}: {point:?}",
+                beyond.to_f64()
+            );
+        }
     }
     Ok(())
 }

@@ -78,8 +78,8 @@ pub(super) struct Sight {
     pub(super) e: [f64; 2],
     /// The line's parameters between which the points are, errors included.
     pub(super) s: [f64; 2],
-    /// The same range from the planes that enclose all points; `None` if `turn` is 0 or the line is
-    /// nearly parallel to these planes.
+    /// The line's parameters between the two parallel planes that enclose all points; `None` if
+    /// `turn` is 0 or the line is nearly parallel to these planes.
     pub(super) plane: Option<[f64; 2]>,
     /// The sign of `S_u x S_v . d` at the corners of the face, 0 if it differs.
     pub(super) turn: i8,
@@ -233,6 +233,8 @@ impl Line {
 pub(super) struct View<'a> {
     pub(super) cell: &'a Cell,
     pub(super) rational: bool,
+    /// Whether the surface has a border. Where it has, `turn` takes folds beside a box into account.
+    pub(super) is_open: bool,
     line: &'a Line,
     /// The origin relative to the cell's base, and bounds on its error.
     o: [f64; 3],
@@ -334,6 +336,7 @@ impl<'a> View<'a> {
         let mut view = Self {
             cell,
             rational,
+            is_open: false,
             line,
             o,
             o_err,
@@ -505,6 +508,18 @@ impl<'a> View<'a> {
         if signs.iter().all(|s| *s == signs[0]) { signs[0] } else { 0 }
     }
 
+    /// The sign of an unproven crossing in a box. A line may touch an open surface where it folds at
+    /// its border, and the box ends there: of such a surface, the points are half the box's width
+    /// beyond its corners.
+    #[inline(always)]
+    fn turn_near(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
+        if self.is_open {
+            self.turn([0, 1].map(|k| f64::mul_add(-1.5, width[k], from[k])), width.map(|w| 4.0 * w))
+        } else {
+            self.turn(from, width)
+        }
+    }
+
     /// An unproven crossing: a box in the cell in which rounding hides whether there is one.
     #[inline(always)]
     pub(super) fn unresolved(&self, from: [f64; 2], width: [f64; 2]) -> Found {
@@ -529,7 +544,7 @@ impl<'a> View<'a> {
             s,
             s_err,
             sign: 0,
-            turn: self.turn(from, width),
+            turn: self.turn_near(from, width),
             on_trim: false,
             is_zero: false,
         }

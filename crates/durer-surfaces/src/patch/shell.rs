@@ -351,6 +351,7 @@ impl Shell {
         let mut window = [begin - ROOM, end + ROOM];
         let line = Line::new(at);
         let exact = Exact::new(at, &self.nets, line.axes);
+        let is_open = !self.is_closed && !SEALED;
         lists.found.clear();
         lists.off.clear();
         self.tree.begin(&mut lists.open);
@@ -364,7 +365,9 @@ impl Shell {
             let Lists { found, off, ahead, .. } = lists;
             let (cell, first) = (&self.cells[number], found.len());
             let room = if SEALED { EDGE } else { 0.0 };
-            View::new(&line, cell, self.rational).meet(&exact, found, room);
+            let mut view = View::new(&line, cell, self.rational);
+            view.is_open = is_open;
+            view.meet(&exact, found, room);
             if self.faces[cell.face as usize].is_turned {
                 for f in &mut found[first..] {
                     (f.sign, f.turn) = (-f.sign, -f.turn);

@@ -180,7 +180,7 @@ pub(super) fn tiling(number: u8) -> Tiling {
             0.5 * R,
             &[(1, ABOVE), (1, BELOW), (2, RIGHT), (2, LEFT), (0, rectangle!(R, R, 3.0 * R, 3.0 * R))],
         ),
-        // The same, each in a colour of its own.
+        // Squares with a trapezium at each side, five colours.
         14 => (
             TRAPEZIA_STEPS,
             5,

@@ -101,8 +101,8 @@ impl Gauge {
         Some(Self { p, q, over_p: 0.5 * e, over_q: 0.5 * n, turn, reach, least: LEAST })
     }
 
-    /// The same function if the exponents make dents between all axes: not a norm, and without a
-    /// bound on gradients (`../concave.rs`).
+    /// The function for exponents with which the surface has dents between all axes. It is not a
+    /// norm, and has no bound on its gradient (`../concave.rs`).
     pub(in crate::implicit) fn of_dents(e: f64, n: f64) -> Option<Self> {
         let with_dents = 2.0..=MOST_DENTED;
         let gauge = Self {

@@ -341,6 +341,10 @@ impl Oracle for Swept {
         self.met(line).unwrap_or_default().into_iter().map(|(c, _)| c).collect()
     }
 
+    fn knows(&self, line: &ExactLine) -> bool {
+        self.met(line).is_some()
+    }
+
     /// Valid for points near one face only, see [`Swept::is_clear`].
     fn face_side(&self, face: u32, point: &[Exact; 3]) -> Ordering {
         match face {

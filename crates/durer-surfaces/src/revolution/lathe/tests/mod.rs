@@ -160,6 +160,27 @@ fn open_lathes_are_met_where_exact_arithmetic_says() {
 }
 
 #[test]
+fn a_point_in_which_the_profile_crosses_itself_is_met_once() {
+    let bow_tie = vec![[1.0, -1.0], [3.0, 1.0], [3.0, -1.0], [1.0, 1.0], [1.0, -1.0]];
+    let lathe = Lathe::new(LatheSpline::Linear, &bow_tie).unwrap();
+    let met = |origin: [f64; 3], direction: [f64; 3]| -> Vec<(f64, i8, RootKind)> {
+        let ray = Ray::new(Point3::from(origin), Vec3::from(direction));
+        all_roots(&lathe, &ray).iter().map(|root| (root.t, root.sign, root.kind)).collect()
+    };
+    let (simple, touch) = (RootKind::Simple, RootKind::Grazing);
+    let through = [(1.0, -1, simple), (2.0, 0, touch), (3.0, 1, simple)];
+    assert_eq!(met([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]), through);
+    assert_eq!(met([0.0, -1.0, 0.0], [1.0, 0.5, 0.0]), through);
+    assert_eq!(met([0.0, 1.0, 0.0], [1.0, -0.5, 0.0]), through);
+    assert_eq!(met([2.0, -1.0, 0.0], [0.0, 1.0, 0.0]), [(1.0, 0, touch)]);
+    // An open profile has two walls there, and one point.
+    let open = Lathe::new(LatheSpline::Linear, &bow_tie[..4]).unwrap();
+    let ray = Ray::new(Point3::new(0.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
+    let t: Vec<f64> = all_roots(&open, &ray).iter().map(|root| root.t).collect();
+    assert_eq!(t, [2.0, 3.0]);
+}
+
+#[test]
 fn rays_through_joints_and_poles_go_in_as_often_as_out() {
     let mut through = 0;
     for (seed, (lathe, oracle)) in cases(solids(), true).iter().enumerate() {

@@ -144,6 +144,9 @@ impl Turned {
             if is_zero(&g) || [zero(), one.clone()].iter().any(|u| value(&g, u).sign().is_eq()) {
                 return None;
             }
+            // The ray's parameter is a height divided by `dy`: a small one takes digits away.
+            let lost = if level { 0 } else { -i64::from(durer_math::scale::exponent(dy.to_f64())) };
+            let digits = 2000 + lost.max(0);
             for root in real_roots(&g) {
                 if root.cmp_exact(&zero()).is_lt() || root.cmp_exact(&one).is_gt() {
                     continue;
@@ -151,8 +154,8 @@ impl Turned {
                 let grazing = root.before == root.after;
                 // A root that is an f64 is taken exactly, so that a crossing may be exactly at an end
                 // of the ray's range.
-                let near = Exact::from(root.about(2000).to_f64());
-                let u = if value(&g, &near).sign().is_eq() { near } else { root.about(2000) };
+                let near = Exact::from(root.about(digits).to_f64());
+                let u = if value(&g, &near).sign().is_eq() { near } else { root.about(digits) };
                 if !level {
                     let (n, d) = (value(&above, &u), dy.clone());
                     let t = real_roots(&[-n, d]).pop()?;
@@ -250,6 +253,10 @@ impl Turned {
 impl Oracle for Turned {
     fn crossings(&self, line: &ExactLine) -> Vec<laws::Crossing> {
         self.met(line).unwrap_or_default()
+    }
+
+    fn knows(&self, line: &ExactLine) -> bool {
+        self.met(line).is_some()
     }
 
     fn face_side(&self, _: u32, point: &[Exact; 3]) -> Ordering {
