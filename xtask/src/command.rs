@@ -95,7 +95,7 @@ impl Durer {
         Err(format!("durer learn-noise: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr)))
     }
 
-    fn command(&self) -> Command {
+    pub(crate) fn command(&self) -> Command {
         let mut command = Command::new(&self.program);
         if let Some(folder) = &self.data {
             command.env("XDG_DATA_HOME", folder);

@@ -18,7 +18,6 @@
 #![forbid(unsafe_code)]
 
 mod bench;
-mod blocks;
 mod checks;
 mod command;
 mod compare;
