@@ -321,7 +321,6 @@ impl<'a, 'r> Pass<'a, 'r> {
         all.sort_by(|a, b| a.at.s.total_cmp(&b.at.s));
         if all.windows(2).any(|w| w[1].at.s_lo <= w[0].at.s_hi) {
             self.order_exactly(&mut all);
-            self.join_equal(&mut all);
         }
         all
     }
@@ -338,26 +337,6 @@ impl<'a, 'r> Pass<'a, 'r> {
                 k -= 1;
             }
         }
-    }
-
-    /// Joins crossings at one point, where the profile meets itself: a solid is crossed there if the
-    /// number of walls that are crossed is odd, and touched otherwise.
-    #[cold]
-    #[inline(never)]
-    fn join_equal(&self, all: &mut Vec<Crossed>) {
-        let is_solid = self.lathe.profile.is_closed;
-        all.dedup_by(|next, kept| {
-            let is_same =
-                next.at.s_lo <= kept.at.s_hi && self.exact_order(next, kept) == Some(Ordering::Equal);
-            if is_same && next.at.sign != 0 {
-                if kept.at.sign == 0 {
-                    *kept = *next;
-                } else if is_solid {
-                    kept.at.sign = 0;
-                }
-            }
-            is_same
-        });
     }
 
     /// The roots in the ray's range.

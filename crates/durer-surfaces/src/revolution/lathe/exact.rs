@@ -157,32 +157,25 @@ impl Pass<'_, '_> {
     #[cold]
     #[inline(never)]
     pub(super) fn order(&self, a: &Crossed, b: &Crossed) -> Ordering {
-        self.exact_order(a, b).unwrap_or_else(|| {
-            if self.probe.exact().is_none() { a.at.s.total_cmp(&b.at.s) } else { Ordering::Equal }
-        })
-    }
-
-    /// The same for an exactly known ray; `None` for others.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn exact_order(&self, a: &Crossed, b: &Crossed) -> Option<Ordering> {
         if self.equation == Equation::Level && a.branch != b.branch {
-            return Some(a.branch.cmp(&b.branch));
+            return a.branch.cmp(&b.branch);
         }
-        let ray = self.probe.exact()?;
-        let (mut a, mut b) = (self.exact(a, &ray)?, self.exact(b, &ray)?);
+        let Some(ray) = self.probe.exact() else { return a.at.s.total_cmp(&b.at.s) };
+        let (Some(mut a), Some(mut b)) = (self.exact(a, &ray), self.exact(b, &ray)) else {
+            return Ordering::Equal;
+        };
         // The height of a ray that is almost level hardly changes between two crossings.
         let steep = ray.d[1].exponent().map_or(0, |e| i32::try_from(-e).unwrap_or(0).clamp(0, 2200));
         for bits in [80, 250 + steep] {
             let ((a_lo, a_hi), (b_lo, b_hi)) = (a.key(bits), b.key(bits));
             if a_hi < b_lo {
-                return Some(Ordering::Less);
+                return Ordering::Less;
             }
             if b_hi < a_lo {
-                return Some(Ordering::Greater);
+                return Ordering::Greater;
             }
         }
-        Some(Ordering::Equal)
+        Ordering::Equal
     }
 
     /// Whether a crossing whose bracket straddles an end of the ray's range is in the range.

@@ -144,9 +144,10 @@ impl Turned {
             if is_zero(&g) || [zero(), one.clone()].iter().any(|u| value(&g, u).sign().is_eq()) {
                 return None;
             }
-            // The ray's parameter is a height divided by `dy`: a small one takes digits away.
+            // Squares of the smallest numbers are 2^-2148. The ray's parameter is a height divided by
+            // `dy`: a small one takes digits away.
             let lost = if level { 0 } else { -i64::from(durer_math::scale::exponent(dy.to_f64())) };
-            let digits = 2000 + lost.max(0);
+            let digits = 2400 + lost.max(0);
             for root in real_roots(&g) {
                 if root.cmp_exact(&zero()).is_lt() || root.cmp_exact(&one).is_gt() {
                     continue;
