@@ -444,13 +444,13 @@ fn point_is_near(
             error.to_f64(),
             point.dp[i]
         );
-        let ends = [
-            (bounds.min[i], &Exact::from(bounds.min[i]) - exact),
-            (bounds.max[i], exact - &bounds.max[i].into()),
-        ];
-        for (end, beyond) in ends.iter().filter(|(end, _)| end.is_finite()) {
+        for (end, outward) in [(bounds.min[i], -1.0), (bounds.max[i], 1.0)] {
+            if !end.is_finite() {
+                continue;
+            }
+            let beyond = &(exact - &end.into()) * &Exact::from(outward);
             ensure!(
-                (beyond + slack).sign().is_le(),
+                (&beyond + slack).sign().is_le(),
                 "the crossing is {} beyond {end}, an end of the bounds along axis {i}: {point:?}",
                 beyond.to_f64()
             );
