@@ -34,16 +34,11 @@ pub(super) enum Sum {
 }
 
 /// The sum of the signs of the crossings that the unproven one `found[i]` represents. `turned` says
-/// whether signs are those of the map with the opposite normal, `is_alone` whether there is no other
-/// map: then its borders are seams, where the map comes back to itself.
+/// whether signs are those of the map with the opposite normal. At a seam the map goes on beyond its
+/// domain, at a border it ends.
 #[cold]
 #[inline(never)]
-pub(super) fn sum_of_signs(
-    view: &View<'_>,
-    found: &[Found],
-    i: usize,
-    (turned, is_alone): (bool, bool),
-) -> Sum {
+pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: bool) -> Sum {
     let own = &found[i];
     let others = || found.iter().enumerate().filter(|&(j, other)| j != i && other.face == own.face);
     for size in SIZES {
@@ -53,12 +48,15 @@ pub(super) fn sum_of_signs(
                 [found.uv[k] - by, found.uv[k] + by]
             })
         };
-        let (around, domain) = (enlarged(own), view.face.domain);
-        let beyond = [0, 1]
-            .map(|k: usize| [(domain[k][0] - around[k][0]).max(0.0), (around[k][1] - domain[k][1]).max(0.0)]);
-        if beyond != [[0.0; 2]; 2] && !is_alone {
+        let (mut around, domain) = (enlarged(own), view.face.domain);
+        for k in (0..2).filter(|&k| !view.face.has_seam[k]) {
+            around[k] = [around[k][0].max(domain[k][0]), around[k][1].min(domain[k][1])];
+        }
+        if (0..2).any(|k| around[k][0] >= around[k][1]) {
             break;
         }
+        let beyond = [0, 1]
+            .map(|k: usize| [(domain[k][0] - around[k][0]).max(0.0), (around[k][1] - domain[k][1]).max(0.0)]);
         let Some(degree) = degree(view, &around) else { continue };
         // Whether another one's box is in this one, made smaller by a part of the other's radius.
         let holds = |other: &Found, part: f64| {

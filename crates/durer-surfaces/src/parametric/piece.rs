@@ -39,6 +39,8 @@ pub(super) struct Face {
     known: Domain,
     /// The slack by which the domain is extended beyond its ends.
     pub(super) slack: [f64; 2],
+    /// Whether the map goes on beyond both ends of a parameter as it does within the other one.
+    pub(super) has_seam: [bool; 2],
 }
 
 /// Bounds of a map on a box. Lengths are in units; slopes are by parameters divided by the width of
@@ -75,7 +77,7 @@ fn about(x: Interval) -> (f64, f64) {
 impl Face {
     pub(super) fn new(tape: VectorTape, domain: Domain) -> Self {
         let slack = domain.map(|[a, b]| END_ULPS * f64::EPSILON * a.abs().max(b.abs()));
-        let mut face = Self { tape, domain, known: domain, slack };
+        let mut face = Self { tape, domain, known: domain, slack, has_seam: [false; 2] };
         // Proofs at an end need the formula beyond it, if it is defined there.
         let mut known = domain;
         for k in 0..2 {
@@ -101,7 +103,35 @@ impl Face {
             }
         }
         face.known = known;
+        face.has_seam = [0, 1].map(|k| face.comes_back(k));
         face
+    }
+
+    /// Whether the map has the same points beyond one end of a parameter as within the other one: at
+    /// eight pairs of points, within the errors of the formula and of the ends.
+    fn comes_back(&self, k: usize) -> bool {
+        if (0..2).any(|end| self.known[k][end] == self.domain[k][end]) {
+            return false;
+        }
+        let beyond = BEYOND * (self.domain[k][1] - self.domain[k][0]) * (1.0 - 8.0 * U);
+        let bounds = [0, 1].map(|end| {
+            let boxes: [Domain; 8] = core::array::from_fn(|i| {
+                let ([from, to], part) = (self.domain[1 - k], [0.0, 0.3125, 0.6875, 1.0][i / 2]);
+                let across = (from + (to - from) * part).min(to);
+                let along = self.domain[k][end] + if i % 2 == 0 { beyond } else { -beyond };
+                let mut own = [[across; 2]; 2];
+                own[k] = [along - self.slack[k], along + self.slack[k]];
+                own
+            });
+            self.tape.bounds(&lanes(&boxes))
+        });
+        (0..8).all(|i| {
+            (0..3).all(|c| {
+                let [a, b] = [0, 1].map(|end| &bounds[end][c]);
+                let is_known = (a.empty | b.empty | a.partial | b.partial) >> i & 1 == 0;
+                is_known && a.lane(i).intersection(b.lane(i)).is_some()
+            })
+        })
     }
 
     /// Whether the formula may be evaluated everywhere in a box.

@@ -217,8 +217,7 @@ impl Sheet {
         while i < found.len() {
             let face = found[i].face;
             if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
-                let sides = (self.is_turned(face), self.faces.len() == 1);
-                match degree::sum_of_signs(&self.view(line, face), found, i, sides) {
+                match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
                     Sum::Certain(sum) => found[i].turn = sum,
                     Sum::Near(j, both) => {
                         found[i] = both;

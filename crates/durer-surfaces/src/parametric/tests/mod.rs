@@ -76,6 +76,19 @@ fn torus(major: f64, minor: f64) -> Parametric {
     p.made([x, y, z], [[0.0, 2.0 * PI], [-PI, PI]], None).unwrap()
 }
 
+/// A Moebius strip: x = (1 + v/2 cos(u/2)) cos u, y = v/2 sin(u/2), so S(2 pi, v) = S(0, -v).
+fn moebius() -> Parametric {
+    let (mut p, u, v) = Pen::new();
+    let (half, one) = (p.number(0.5), p.number(1.0));
+    let (u2, v2) = (p.times(half, u), p.times(half, v));
+    let (s2, c2) = (p.of(Function::Sin, u2), p.of(Function::Cos, u2));
+    let (su, cu) = (p.of(Function::Sin, u), p.of(Function::Cos, u));
+    let (out, y) = (p.times(v2, c2), p.times(v2, s2));
+    let r = p.plus(one, out);
+    let (x, z) = (p.times(r, cu), p.times(r, su));
+    p.made([x, y, z], [[0.0, 2.0 * PI], [-1.0, 1.0]], None).unwrap()
+}
+
 /// What was seen of rays.
 #[derive(Debug, Default)]
 struct Tally {
@@ -306,16 +319,7 @@ fn polynomials_are_their_bezier_patches() {
 
 #[test]
 fn rays_through_the_seam_of_a_moebius_strip_meet_it_once() {
-    // x = (1 + v/2 cos(u/2)) cos u, y = v/2 sin(u/2): S(2 pi, v) = S(0, -v).
-    let (mut p, u, v) = Pen::new();
-    let (half, one) = (p.number(0.5), p.number(1.0));
-    let (u2, v2) = (p.times(half, u), p.times(half, v));
-    let (s2, c2) = (p.of(Function::Sin, u2), p.of(Function::Cos, u2));
-    let (su, cu) = (p.of(Function::Sin, u), p.of(Function::Cos, u));
-    let (out, y) = (p.times(v2, c2), p.times(v2, s2));
-    let r = p.plus(one, out);
-    let (x, z) = (p.times(r, cu), p.times(r, su));
-    let strip = p.made([x, y, z], [[0.0, 2.0 * PI], [-1.0, 1.0]], None).unwrap();
+    let strip = moebius();
     for case in drawn(2000) {
         let mut dice = dice(5, case);
         let z = dice.pick(&[0.0, 0.0, 1e-17, -1e-17, 1e-16, -1e-16, 3e-16]);
@@ -328,6 +332,24 @@ fn rays_through_the_seam_of_a_moebius_strip_meet_it_once() {
         assert_eq!(near.len(), 1, "{ray:?} {near:?}");
         assert_eq!(near[0].kind, RootKind::Simple, "{ray:?} {near:?}");
     }
+}
+
+/// A map goes on at a seam if it is periodic: not at a turned seam, at a corner, a pole or a border.
+#[test]
+fn seams_are_where_a_map_is_periodic() {
+    let seams = |it: &Parametric| it.sheet.faces[0].has_seam;
+    assert_eq!(seams(&torus(1.0, 0.25)), [true, true]);
+    assert_eq!(seams(&sphere()), [true, false]);
+    assert_eq!(seams(&moebius()), [false, false]);
+    // A loop with a corner.
+    let (mut p, u, v) = Pen::new();
+    let (minus, one) = (p.number(-1.0), p.number(1.0));
+    let rest = p.times(minus, u);
+    let rest = p.plus(one, rest);
+    let x = p.times(u, rest);
+    let y = p.times(x, u);
+    let corner = p.made([x, y, v], [[0.0, 1.0]; 2], None).unwrap();
+    assert_eq!(seams(&corner), [false, false]);
 }
 
 #[test]
