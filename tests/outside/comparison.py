@@ -302,7 +302,9 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 twin = any(g is not h and g["sign"] == -h["sign"] and overlap(g, h) for g in found[key])
                 clear = False
                 loose.append(h)
-                if not (corner and twin):
+                # Where a profile crosses itself, each wall is met by itself.
+                walls = any(e.walls > 1 and inside(e, h) for e, _ in everywhere.events[key])
+                if not (corner and twin or walls):
                     wrong.append("extra crossing")
                 continue
             if mine[0][0].sign != h["sign"] and not (mine[0][0].any_sign and h["sign"]) and (mine[0][0].optional or len(mine[0][0].normals) > 1):

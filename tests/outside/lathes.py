@@ -218,12 +218,8 @@ class Lathe(Region):
                 tip = p[0] ** 2 + p[2] ** 2 <= self.size**2 / (1 << 40) or any(n is None for _, n, _ in walls)
                 event = Event(t, turn, [] if tip else normals, self, any_sign=not self.closed)
                 event.optional = before == after and not (len(group) == 1 and group[0][2]) or rim
+                event.walls = len(walls)
                 events.append(event)
-                # Where the profile crosses itself, each wall may be met by itself.
-                for _ in walls[1:]:
-                    other = Event(t, turn, [], self, any_sign=True)
-                    other.optional = True
-                    events.append(other)
             if before != after:
                 if after:
                     start = t

@@ -26,8 +26,8 @@ const HALVINGS: usize = 16;
 
 /// The signs of the crossings that one unproven crossing represents.
 pub(super) enum Sum {
-    /// The sum of the signs of all crossings there.
-    Certain(i8),
+    /// The sum of the signs of all crossings there; 0 where the line may touch a border.
+    Of(i8),
     /// The unproven crossing of this index is too near for a sum of its own; this one holds both.
     Near(usize, Found),
     Unknown,
@@ -41,14 +41,10 @@ pub(super) enum Sum {
 pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: bool) -> Sum {
     let own = &found[i];
     let others = || found.iter().enumerate().filter(|&(j, other)| j != i && other.face == own.face);
+    let domain = view.face.domain;
     for size in SIZES {
-        let enlarged = |found: &Found| {
-            [0, 1].map(|k: usize| {
-                let by = size * found.radius[k];
-                [found.uv[k] - by, found.uv[k] + by]
-            })
-        };
-        let (mut around, domain) = (enlarged(own), view.face.domain);
+        let enlarged = |found: &Found| enlarged(found, size);
+        let mut around = enlarged(own);
         for k in (0..2).filter(|&k| !view.face.has_seam[k]) {
             around[k] = [around[k][0].max(domain[k][0]), around[k][1].min(domain[k][1])];
         }
@@ -90,11 +86,27 @@ pub(super) fn sum_of_signs(view: &View<'_>, found: &[Found], i: usize, turned: b
             others().filter(|(_, other)| holds(other, 1.0)).map(|(_, other)| i32::from(other.sign)).sum();
         let sum = if (view.line.d_z < 0.0) == turned { degree } else { -degree } - proven;
         return match i8::try_from(sum) {
-            Ok(sum @ -1..=1) => Sum::Certain(sum),
+            Ok(sum @ -1..=1) => Sum::Of(sum),
             _ => Sum::Unknown,
         };
     }
-    Sum::Unknown
+    // Rounding hides whether a crossing at a border is on the map. If the map, continued beyond its
+    // borders, has none or as many in either direction, the line may touch the border.
+    let is_touch = |size: f64| {
+        let around = enlarged(own, size);
+        let holds =
+            |other: &Found| (0..2).all(|k| around[k][0] <= other.uv[k] && other.uv[k] <= around[k][1]);
+        degree(view, &around) == Some(0) && !others().any(|(_, other)| holds(other))
+    };
+    if SIZES.into_iter().any(is_touch) { Sum::Of(0) } else { Sum::Unknown }
+}
+
+/// The box of a crossing, enlarged.
+fn enlarged(found: &Found, size: f64) -> Domain {
+    [0, 1].map(|k| {
+        let by = size * found.radius[k];
+        [found.uv[k] - by, found.uv[k] + by]
+    })
 }
 
 /// How many times `F` turns around zero along the border of a box, by the orientation of the

@@ -218,7 +218,7 @@ impl Sheet {
             let face = found[i].face;
             if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
                 match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
-                    Sum::Certain(sum) => found[i].turn = sum,
+                    Sum::Of(sum) => found[i].turn = sum,
                     Sum::Near(j, both) => {
                         found[i] = both;
                         found.swap_remove(j);
