@@ -302,8 +302,11 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 twin = any(g is not h and g["sign"] == -h["sign"] and overlap(g, h) for g in found[key])
                 clear = False
                 loose.append(h)
-                # Where a profile crosses itself, each wall is met by itself.
-                walls = any(e.walls > 1 and inside(e, h) for e, _ in everywhere.events[key])
+                # Where a profile crosses itself, each wall is met by itself; the signs of a solid's add up to that of the point.
+                met = [e for e, _ in everywhere.events[key] if inside(e, h)]
+                mates = [g for g in found[key] if any(inside(e, g) for e in met)]
+                summed = any(e.any_sign for e in met) or sum(e.sign for e in met) == sum(g["sign"] for g in mates)
+                walls = any(e.walls > 1 for e in met) and len(mates) <= sum(e.walls for e in met) and summed
                 if not (corner and twin or walls):
                     wrong.append("extra crossing")
                 continue

@@ -157,7 +157,7 @@ class Event:
         self.needed = False
         # The faces of which any may report it, if there are several.
         self.faces = None
-        # How many walls of its surface meet there.
+        # How many walls of its surface meet there, except at common ends.
         self.walls = 1
 
     def __repr__(self):

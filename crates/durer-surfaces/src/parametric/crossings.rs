@@ -103,9 +103,9 @@ fn joined(a: &Found, b: &Found) -> Found {
     if overlap(a, b) { united(a, b) } else { joined_across(a, b, 2.0) }
 }
 
-/// The same for two boxes on different maps, or on both sides of a seam, across which they meet if
-/// both are enlarged to `size` times their radii. Their parameters do not mix: the box is that of
-/// `a`, continued beyond the seam as far as `b`.
+/// A box that holds two others on different maps or on both sides of a seam, in which nothing is
+/// proven. Enlarged to `size` times their radii, both boxes meet at the seam. Parameters of
+/// different sides do not mix: the box is that of `a`, continued beyond the seam as far as `b`.
 pub(super) fn joined_across(a: &Found, b: &Found, size: f64) -> Found {
     let reach =
         |k: usize| if a.face == b.face { size * (a.radius[k] + b.radius[k]) + b.radius[k] } else { 0.0 };

@@ -383,7 +383,7 @@ impl Oracle for Swept {
 
 impl Known for Swept {
     fn is_plain(&self, line: &ExactLine) -> bool {
-        self.met(line).is_some()
+        self.knows(line)
     }
 
     // Also not near a joint or a tangent.
