@@ -279,6 +279,11 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 for e, _ in held if is_patch else ():
                     if e.optional or straddles:
                         sums |= {s - e.sign + k for s in sums for k in (-1, 0, 1)}
+                if total not in sums and hasattr(leaf, "passes_the_border"):
+                    # Each of them at a border may have any sign.
+                    free = sum(leaf.passes_the_border(leaf.whole.ray(ray[:3], ray[3:6]), float(g["t_lo"]), float(g["t_hi"])) for g in (mine if is_patch else [h]))
+                    report.counted["unproven crossing at a border, any sign"] += free
+                    sums |= {s + k for s in sums for k in range(-free, free + 1)}
                 # Those that are told next to it, from one to the next.
                 reach = [h]
                 for g in reach:
@@ -302,12 +307,12 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 twin = any(g is not h and g["sign"] == -h["sign"] and overlap(g, h) for g in found[key])
                 clear = False
                 loose.append(h)
-                # Where a profile crosses itself, each wall is met by itself; the signs of a solid's add up to that of the point.
+                # Where a profile crosses or touches itself, each branch is met by itself; the signs of a solid's add up to that of the point.
                 met = [e for e, _ in everywhere.events[key] if inside(e, h)]
                 mates = [g for g in found[key] if any(inside(e, g) for e in met)]
                 summed = any(e.any_sign for e in met) or sum(e.sign for e in met) == sum(g["sign"] for g in mates)
-                walls = any(e.walls > 1 for e in met) and len(mates) <= sum(e.walls for e in met) and summed
-                if not (corner and twin or walls):
+                branches = any(e.branches > 1 for e in met) and len(mates) <= sum(e.branches for e in met) and summed
+                if not (corner and twin or branches):
                     wrong.append("extra crossing")
                 continue
             if mine[0][0].sign != h["sign"] and not (mine[0][0].any_sign and h["sign"]) and (mine[0][0].optional or len(mine[0][0].normals) > 1):

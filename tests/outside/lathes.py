@@ -218,7 +218,9 @@ class Lathe(Region):
                 tip = p[0] ** 2 + p[2] ** 2 <= self.size**2 / (1 << 40) or any(n is None for _, n, _ in walls)
                 event = Event(t, turn, [] if tip else normals, self, any_sign=not self.closed)
                 event.optional = before == after and not (len(group) == 1 and group[0][2]) or rim
-                event.walls = max(1, sum(inner for _, _, inner in walls))
+                # Of walls that end there, two are one branch.
+                inner = sum(inner for _, _, inner in walls)
+                event.branches = inner + (len(walls) - inner + 1) // 2
                 events.append(event)
             if before != after:
                 if after:

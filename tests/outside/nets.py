@@ -223,6 +223,10 @@ def zero_of(f, g):
     return None
 
 
+EITHER = 2
+"""The turn of a line through a seam where the surface comes back turned over: it is that of either side."""
+
+
 class Piece:
     """A homogeneous net over [u0, u1] x [v0, v1] of a surface's parameters; `ends` says which of its four sides are outer borders of the surface that do not meet another. The net reaches BEYOND all of them."""
 
@@ -459,6 +463,10 @@ class Net(Patch):
             out.append(min(far, abs(far - 1)) if closed else far)
         return max(out)
 
+    def is_turned_over(self, p, q):
+        """Whether two places are on either side of a seam where the surface comes back turned over."""
+        return False
+
     def joined(self, raw, ray):
         """Places on borders of pieces, which two of them find, are one; along a seam too."""
         raw.sort(key=lambda r: r[0] + r[1])
@@ -473,6 +481,11 @@ class Net(Patch):
             same[0], same[1] = min(same[0], r[0]), max(same[1], r[1])
             same[3] |= r[3]
             same[6] |= r[6]
+            if same[4] != r[4] and self.is_turned_over(same[5], r[5]):
+                # One end of the domain may be a rounding beyond the other.
+                same[4], same[7] = EITHER, same[7] or r[7]
+                same[2] += r[2]
+                continue
             same[7] &= r[7]
             if same[4] != r[4]:
                 # A crease that is touched, or what is left of a tangent.
@@ -503,7 +516,7 @@ class Net(Patch):
         flip = -1 if self.inverse else 1
         events = []
         for t, normals, border, turn, needed in found:
-            event = Event(t, flip * turn, [(n, flip) for n in normals], self)
+            event = Event(t, flip * (turn if turn != EITHER else 1), [(n, flip) for n in normals], self, any_sign=turn == EITHER)
             # Within the patch's own plane but for some rounding errors.
             flat = any(is_flat(n, d, 44) for n in normals)
             event.optional, event.needed = border or flat, needed and not flat

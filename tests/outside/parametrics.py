@@ -149,6 +149,17 @@ class Parametric(Net):
                     return True
         return self.gave_up
 
+    def passes_the_border(self, ray, lo, hi):
+        """Whether a ray passes a border of the domain by less than sixteen errors, where t is in a bracket: whether what is met there is on the surface, rounding decides."""
+        for piece, u, v, square in self.search(ray, error=16 * self.error(ray)):
+            if square is not None:
+                sides = (square.u, 1 - square.u - square.size_u, square.v, 1 - square.v - square.size_v)
+                if any(end and side <= 0 for side, end in zip(sides, piece.ends)):
+                    ts = [self.depth(piece, ray, square.u + a * square.size_u, square.v + b * square.size_v) for a in (0, 1) for b in (0, 1)]
+                    if min(ts) <= F(hi) and max(ts) >= F(lo):
+                        return True
+        return self.gave_up
+
     def clearance(self, place, su, sv):
         """The ends of the domain reach four units in the last place farther. A part's own parameter changes at most 1.2 times as fast as it would evenly, by 1 over the part's length."""
         apart, kept = super().clearance(place, su, sv)
@@ -164,10 +175,15 @@ class Parametric(Net):
         return abs(far), far >= 0
 
     def apart(self, p, q):
-        turn = self.domain[0][1]
-        if self.twisted and abs(p[0] - q[0]) * 2 > turn:
+        """Beyond a seam a part's own parameter changes otherwise, in second order."""
+        if self.is_turned_over(p, q):
+            turn = self.domain[0][1]
             q = (q[0] + (turn if p[0] > q[0] else -turn), self.domain[1][1] - q[1])
+            return max(F(0), super().apart(p, q) - 16 * min(abs(p[0]), abs(p[0] - turn)) ** 2)
         return super().apart(p, q)
+
+    def is_turned_over(self, p, q):
+        return self.twisted and abs(p[0] - q[0]) * 2 > self.domain[0][1]
 
 
 def pieces_of(formulas, parameters):

@@ -157,11 +157,24 @@ class Ruled(Patch):
     def __init__(self, body, first, last, points, directions, size):
         super().__init__(body, points, directions, size)
         self.last = last
+        edges = (first, last, (first[0], last[0]), (first[-1], last[-1]))
+        self.tips = [tuple(map(F, edge[0])) for edge in edges if all(p == edge[0] for p in edge)]
         self.a = [bernstein([F(p[i]) for p in first]) for i in range(3)]
         self.b = [minus(bernstein([F(p[i]) for p in last]), c) for i, c in enumerate(self.a)]
         uu = max(size_of(slope(slope(a))) + (1 + MARGIN) * size_of(slope(slope(b))) for a, b in zip(self.a, self.b))
         # Of the sheared functions, twice.
         self.second = 2 * (uu + 2 * max(size_of(slope(b)) for b in self.b))
+
+    def passes_an_edge(self, ray, lo, hi):
+        """Whether a ray passes an edge that is one point by less than its error: it meets the patch there, or misses it, or both ways."""
+        x, d, w = ray
+        o, d, error = tuple(F(a, w) for a in x), tuple(F(a, w) for a in d), self.error(ray)
+        wide = error / max(map(abs, d))
+        for tip in self.tips:
+            t = dot(sub(tip, o), d) / dot(d, d)
+            if F(lo) - wide <= t <= F(hi) + wide and max(abs(a + t * b - c) for a, b, c in zip(o, d, tip)) <= error:
+                return True
+        return False
 
     def equations(self, ray):
         x, d, w = ray

@@ -150,15 +150,15 @@ IDENTITY = Map(words="")
 class Event:
     """One crossing: where, -1 entering / +1 leaving / 0 touching, and the normals it may have (functions of the point, outward). An optional one may be told or not; or, if it is needed, as a touch or in a cluster."""
 
-    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face", "optional", "needed", "faces", "walls")
+    __slots__ = ("t", "sign", "any_sign", "normals", "leaf", "face", "optional", "needed", "faces", "branches")
 
     def __init__(self, t, sgn, normals, leaf, face=0, any_sign=False, optional=False):
         self.t, self.sign, self.normals, self.leaf, self.face, self.any_sign, self.optional = t, sgn, normals, leaf, face, any_sign, optional
         self.needed = False
         # The faces of which any may report it, if there are several.
         self.faces = None
-        # How many walls of its surface meet there, except at common ends.
-        self.walls = 1
+        # How many branches of a profile meet there.
+        self.branches = 1
 
     def __repr__(self):
         return f"(t={float(self.t)!r} sign={self.sign})"

@@ -49,6 +49,7 @@ pub mod compose;
 #[cfg(test)]
 mod corpus;
 pub mod cyclide;
+mod degree;
 pub mod disc;
 mod edges;
 pub mod faces;

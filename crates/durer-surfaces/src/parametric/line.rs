@@ -10,6 +10,7 @@
 
 use super::Bounds;
 use super::piece::{Domain, Face, Piece, Unit, around, lane_of, slope_of};
+use crate::degree::Place;
 use crate::patch::line::Line;
 use durer_formula::lanes;
 use durer_math::eft::scale2;
@@ -53,6 +54,13 @@ pub(super) struct Found {
     /// If nothing is proven: the sum of the signs of what is there, or, if that is unknown, that sign
     /// at some points nearby, 0 if they differ.
     pub(super) turn: i8,
+}
+
+impl Found {
+    pub(super) fn place(&self) -> Place {
+        let &Self { face, uv, radius, s, s_err, sign, .. } = self;
+        Place { face, uv, radius, s, s_err, sign }
+    }
 }
 
 /// The empty box.
@@ -116,6 +124,20 @@ impl View<'_> {
         let (f, e) = self.values(&piece.p, &piece.p_err);
         let (j, e_j) = self.slopes(&piece.slope, &piece.slope_err);
         (Local { f, j }, Limits { e, e_j, h: [[0.0; 3]; 2] })
+    }
+
+    /// About how much both functions change along each parameter of a piece, at most.
+    pub(super) fn change(&self, piece: &Piece) -> [f64; 2] {
+        let Line { axes, slope, .. } = self.line;
+        [0, 1].map(|k: usize| {
+            let of = |c: usize| (piece.slope[axes[c]][k], piece.slope_err[axes[c]][k]);
+            let (z, z_err) = of(2);
+            let along = |i: usize| {
+                let (x, x_err) = of(i);
+                (-slope[i]).mul_add(z, x).abs() + slope[i].abs().mul_add(z_err, x_err)
+            };
+            along(0).max(along(1))
+        })
     }
 
     /// Whether a piece holds no crossing, at most one (then near a known place), or an unknown

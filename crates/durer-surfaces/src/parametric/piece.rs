@@ -28,7 +28,7 @@ const ROUNDED: f64 = 1.0 + 32.0 * U;
 const TINY: f64 = durer_math::scale::pow2(-1000);
 
 /// A box of parameters: from the least to the greatest of each.
-pub(super) type Domain = [[f64; 2]; 2];
+pub(super) use crate::degree::Domain;
 
 /// A map from a rectangle of parameters into space.
 #[derive(Clone, Debug, PartialEq)]

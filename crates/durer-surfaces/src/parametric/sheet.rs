@@ -1,12 +1,13 @@
 //! Maps of rectangles as one surface: their pieces in a tree, and all crossings of a ray, each once.
 
 use super::build::{self, Refused};
-use super::crossings::{distinct, root};
-use super::degree::{self, Sum};
+use super::crossings::{distinct, joined_across, root, united};
+use super::degree::turns_around;
 use super::line::{Found, NOWHERE, View};
 use super::piece::{Face, Piece, Unit};
 use super::{Bounds, subdivide};
 use crate::blob::{Along, Inner, Tree};
+use crate::degree::{Sum, sum_of_signs};
 use crate::mesh::Sorted;
 use crate::patch::line::Line;
 use crate::patch::shell::FaceTrim;
@@ -217,16 +218,30 @@ impl Sheet {
         while i < found.len() {
             let face = found[i].face;
             if found[i].sign == 0 && !matches!(self.trims.get(face as usize), Some(Some(_))) {
-                match degree::sum_of_signs(&self.view(line, face), found, i, self.is_turned(face)) {
-                    Sum::Of(sum) => found[i].turn = sum,
-                    Sum::Near(j, both) => {
-                        found[i] = both;
-                        found.swap_remove(j);
-                        i = 0;
+                let places: Vec<_> = found.iter().map(Found::place).collect();
+                let view = self.view(line, face);
+                let is_reversed = (line.d_z < 0.0) != self.is_turned(face);
+                let sum_in = |around: &_| {
+                    turns_around(&view, around).map(|turns| if is_reversed { -turns } else { turns })
+                };
+                let (domain, has_seam) = (&view.face.domain, view.face.has_seam);
+                let (j, both) = match sum_of_signs(&places, i, domain, has_seam, sum_in) {
+                    Sum::Of(sum) => {
+                        found[i].turn = sum;
+                        i += 1;
                         continue;
                     }
-                    Sum::Unknown => {}
-                }
+                    Sum::Unknown => {
+                        i += 1;
+                        continue;
+                    }
+                    Sum::Near(j) => (j, united(&found[i], &found[j])),
+                    Sum::Across(j, size) => (j, joined_across(&found[i], &found[j], size)),
+                };
+                found[i] = both;
+                found.swap_remove(j);
+                i = 0;
+                continue;
             }
             i += 1;
         }

@@ -23,11 +23,32 @@ pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
     let (mut boxes, mut parts) = (Vec::<Domain>::with_capacity(8), Vec::with_capacity(8));
     let mut cuts = 0;
     while let Some(piece) = open.pop() {
-        let may = [0, 1].map(|k| {
+        let widths = [0, 1].map(|k| {
             let [from, to] = view.face.domain[k];
-            piece.width[k] > LEAST * (to - from)
+            piece.width[k] / (to - from)
         });
-        if may == [false; 2] || cuts == MOST_CUTS {
+        // The values of both functions: along a line of the surface they change only across it.
+        let mut change = view.change(&piece);
+        if change.iter().any(|c| !c.is_finite()) {
+            change = widths;
+        }
+        boxes.clear();
+        boxes.push(piece.own);
+        // Where the parameter along which they change most is as narrow as can be, the other one
+        // decides nothing: along an edge that is one point.
+        for _ in 0..if cuts < MOST_CUTS { 3 } else { 0 } {
+            let k = usize::from(change[1] > change[0]);
+            if widths[k] <= LEAST {
+                break;
+            }
+            change[k] *= 0.5;
+            for i in 0..boxes.len() {
+                let [low, high] = halves(&boxes[i], k);
+                boxes[i] = low;
+                boxes.push(high);
+            }
+        }
+        if boxes.len() == 1 {
             // Without bounds there is no place for a crossing.
             if piece.is_bounded() {
                 out.push(view.unresolved(&piece));
@@ -36,22 +57,6 @@ pub(super) fn meet(view: &View<'_>, piece: &Piece, out: &mut Vec<Found>) {
         }
         cuts += 1;
         crate::steps::cut();
-        boxes.clear();
-        boxes.push(piece.own);
-        let mut change = piece.change();
-        if change.iter().any(|c| !c.is_finite()) {
-            change = piece.width;
-        }
-        for _ in 0..3 {
-            let k = usize::from(change[1] > change[0]);
-            let k = if may[k] { k } else { 1 - k };
-            change[k] *= 0.5;
-            for i in 0..boxes.len() {
-                let [low, high] = halves(&boxes[i], k);
-                boxes[i] = low;
-                boxes.push(high);
-            }
-        }
         boxes.retain(|own| own.iter().all(|[from, to]| from < to));
         parts.clear();
         view.face.pieces(piece.face, &boxes, view.unit, &mut parts);

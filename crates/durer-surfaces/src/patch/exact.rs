@@ -21,6 +21,14 @@ impl<'a> Exact<'a> {
         Self { at, faces, ray: OnceCell::new(), axes }
     }
 
+    /// The numbers of control points of a face along its parameters; `None` for a triangle.
+    pub(super) fn size(&self, face: u32) -> Option<[usize; 2]> {
+        match self.faces.get(face as usize)? {
+            FaceNet::Square(net) => Some(net.size),
+            FaceNet::Triangle(_) => None,
+        }
+    }
+
     /// The control points of the half of a cell that is in the triangle, relative to the cell's base.
     pub(super) fn half(&self, cell: &Cell) -> Option<Vec<Homogeneous<f64>>> {
         let FaceNet::Triangle(net) = self.faces.get(cell.face as usize)? else { return None };

@@ -15,6 +15,7 @@ use super::exact::Exact;
 use super::net::Homogeneous;
 use super::subdivide;
 use crate::CentredRay;
+use crate::degree::Place;
 use crate::steps;
 use durer_math::U;
 use durer_math::eft::two_diff;
@@ -258,16 +259,24 @@ pub(super) struct Found {
     pub(super) s_err: f64,
     /// The sign of `S_u x S_v . d`; 0 if nothing is proven.
     pub(super) sign: i8,
-    /// If nothing is proven: that sign at some points nearby, 0 if they differ.
+    /// If nothing is proven: the sum of the signs of what is there, or, if that is unknown, that sign
+    /// at some points nearby, 0 if they differ.
     pub(super) turn: i8,
     /// Whether it may be on a trim.
     pub(super) on_trim: bool,
+    /// Whether it stands for crossings with several faces.
+    pub(super) is_shared: bool,
     /// Whether the line certainly meets the surface of the patch there, perhaps beyond an edge or a
     /// trim, in the direction of `turn`.
     pub(super) is_zero: bool,
 }
 
 impl Found {
+    pub(super) fn place(&self) -> Place {
+        let &Self { face, uv, radius, s, s_err, sign, .. } = self;
+        Place { face, uv, radius, s, s_err, sign }
+    }
+
     /// Unites one crossing that was found on two patches. The result is the one that is certainly
     /// within its patch; if both may be beyond an edge, its bracket holds both.
     pub(super) fn united(&self, other: &Self, is_on_edge: impl Fn(&Self) -> bool) -> Self {
@@ -293,6 +302,7 @@ impl Found {
         (out.sign, out.alone) = (0, [0.0; 2]);
         out.turn = if a.turn == b.turn { a.turn } else { 0 };
         out.on_trim = a.on_trim || b.on_trim;
+        out.is_shared = a.is_shared || b.is_shared || a.face != b.face;
         out.is_zero = a.is_zero && b.is_zero && a.turn == b.turn;
         out
     }
@@ -411,11 +421,16 @@ impl<'a> View<'a> {
         Local { f, j: [[a[0], b[0]], [a[1], b[1]]] }
     }
 
+    /// The functions and their slopes in the middle of the cell.
+    #[inline(always)]
+    pub(super) fn middle(&self) -> Local {
+        self.local(&self.cell.middle)
+    }
+
     /// Appends the crossings of the line and the cell, also those within `room` beyond its edges.
     #[inline(always)]
     pub(super) fn meet(&self, exact: &Exact<'_>, out: &mut Vec<Found>, room: f64) {
-        let middle = self.local(&self.cell.middle);
-        match self.limits.content(&middle, 0.5, 0.5 + MARGIN) {
+        match self.limits.content(&self.middle(), 0.5, 0.5 + MARGIN) {
             Content::Nothing => {}
             Content::AtMostOne([du, dv]) => match self.zero([0.5 + du, 0.5 + dv], &self.limits, &MARGINS) {
                 Some(zero) => {
@@ -491,6 +506,7 @@ impl<'a> View<'a> {
             sign,
             turn: sign,
             on_trim: false,
+            is_shared: false,
             is_zero: true,
         };
         (!cell.is_half || found.reaches_triangle()).then_some(found)
@@ -546,6 +562,7 @@ impl<'a> View<'a> {
             sign: 0,
             turn: self.turn_near(from, width),
             on_trim: false,
+            is_shared: false,
             is_zero: false,
         }
     }

@@ -32,6 +32,7 @@ mod ahead;
 mod alternation;
 mod cell;
 pub(crate) mod composed;
+mod degree;
 mod exact;
 pub(crate) mod line;
 pub(crate) mod net;

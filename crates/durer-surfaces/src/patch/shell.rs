@@ -3,12 +3,14 @@
 use super::ahead::Ahead;
 use super::alternation::{decide, is_in_doubt};
 use super::cell::{Cell, EDGE, Trimmed, cells};
+use super::degree::turns_around;
 use super::exact::Exact;
 use super::line::{Found, Line, View};
 use super::net::{FaceNet, Homogeneous, relative};
 use super::trim::Trims;
 use crate::blob::Along;
 use crate::box_tree::{BoxTree, Open};
+use crate::degree::{Sum, sum_of_signs};
 use crate::mesh::Sorted;
 use crate::{CentredRay, LocalRay, Root, RootKind, Sink, steps};
 use core::cell::Cell as Slot;
@@ -285,6 +287,9 @@ impl Shell {
                 self.distinct(&mut lists.found);
                 decide(&mut lists.found, 1, |f| self.has_on_edge(f), |_| 0.0);
             }
+            if !self.is_closed && lists.found.iter().any(|found| found.sign == 0) {
+                self.add_signs(&at, &mut lists.found);
+            }
             lists.found.retain(|found| found.s > sent);
             unproven = self.pour(&at, &lists.found, sink).1;
         }
@@ -317,6 +322,40 @@ impl Shell {
         }
         ahead.send(found, count, near);
         self.pour(at, early, sink).0
+    }
+
+    /// Adds up the signs of what unproven crossings represent, and joins those that are too near each
+    /// other for sums of their own. At trims, and where faces share an edge, no sum is known.
+    #[cold]
+    #[inline(never)]
+    fn add_signs(&self, at: &CentredRay<'_>, found: &mut Vec<Found>) {
+        let line = Line::new(at);
+        let exact = Exact::new(at, &self.nets, line.axes);
+        let mut i = 0;
+        while i < found.len() {
+            let own = &found[i];
+            let face = &self.faces[own.face as usize];
+            if own.sign != 0 || own.is_shared || face.trim.is_some() {
+                i += 1;
+                continue;
+            }
+            let places: Vec<_> = found.iter().map(Found::place).collect();
+            let is_reversed = (line.d_z < 0.0) != face.is_turned;
+            let sum_in = |around: &_| {
+                turns_around(&exact, own.face, around).map(|turns| if is_reversed { -turns } else { turns })
+            };
+            match sum_of_signs(&places, i, &[[0.0, 1.0]; 2], [false; 2], sum_in) {
+                Sum::Of(sum) => found[i].turn = sum,
+                Sum::Near(j) | Sum::Across(j, _) if !found[j].is_shared => {
+                    found[i] = found[i].joined(&found[j]);
+                    found.swap_remove(j);
+                    i = 0;
+                    continue;
+                }
+                _ => {}
+            }
+            i += 1;
+        }
     }
 
     /// Passes crossings to `sink`, ascending. Returns how many of them are unproven, too.

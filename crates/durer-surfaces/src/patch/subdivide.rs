@@ -14,7 +14,7 @@ use super::line::{Found, View, touches};
 use super::strip::{shorten, unresolved};
 use core::ops::{Add, Mul, Sub};
 use durer_math::{Dd, Isa, U};
-use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero};
+use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED, Zero, inverse};
 
 /// The most parts of a cell that are examined for one ray; the rest stays unresolved. A tangent
 /// needs a few hundred.
@@ -24,6 +24,8 @@ const NOISE: f64 = 8.0;
 /// The least width of a part, in parameters of its cell.
 const LEAST: f64 = durer_math::scale::pow2(-48);
 
+/// The most control points that are seen together before a cell is halved: those of a bicubic patch.
+const SEEN: usize = 16;
 /// The most parts of a cell that are examined in double-double for one ray.
 const MOST_DOUBLE: usize = 64;
 /// A touch leaves at most as many parts open as meet in one point, twice. If there are more, a
@@ -74,20 +76,22 @@ fn range<T: Word>(f: &[[T; 2]], [a, b]: [f64; 2]) -> (f64, f64) {
     (low, high)
 }
 
+/// Whether a combination of the functions has certainly no zero in the hull of control values with
+/// errors of at most `e`.
+#[inline(always)]
+fn is_clear_of<T: Word>(f: &[[T; 2]], e: [f64; 2], by: [f64; 2]) -> bool {
+    let (low, high) = range(f, by);
+    let terms = |[x, y]: &[T; 2]| (by[0] * x.value()).abs() + (by[1] * y.value()).abs();
+    let largest = f.iter().map(terms).fold(0.0, f64::max);
+    let e = (by[0].abs() * e[0] + by[1].abs() * e[1]) * ROUNDED + 4.0 * T::UNIT * largest;
+    low.abs().max(high.abs()) > 0.0 && (low > e || high < -e)
+}
+
 impl<T: Word> Part<T> {
     /// Whether a combination of the functions has certainly no zero in the part.
     #[inline(always)]
     fn is_clear_of(&self, by: [f64; 2]) -> bool {
-        let (low, high) = range(&self.f, by);
-        let most = low.abs().max(high.abs());
-        let e = (by[0].abs() * self.e[0] + by[1].abs() * self.e[1]) * ROUNDED + 4.0 * T::UNIT * self.most(by);
-        most > 0.0 && (low > e || high < -e)
-    }
-
-    /// The largest magnitude of a combination's terms.
-    #[inline(always)]
-    fn most(&self, by: [f64; 2]) -> f64 {
-        self.f.iter().fold(0.0, |m: f64, [x, y]| m.max((by[0] * x.value()).abs() + (by[1] * y.value()).abs()))
+        is_clear_of(&self.f, self.e, by)
     }
 
     /// The value and slopes in the middle and bounds on second derivatives, by the part's own
@@ -332,10 +336,20 @@ pub(super) fn meet(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
 fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
     let cell = view.cell;
     let [nu, nv] = cell.size;
-    let mut f = Vec::with_capacity(cell.net.len());
-    for p in &cell.net {
-        f.push(view.sheared(p).0);
+    // Most lines that come here cross the surface just beyond the cell: where the functions are about
+    // the parameters themselves, the control values say so.
+    let mut values = [[0.0; 2]; SEEN];
+    if let Some(values) = values.get_mut(..cell.net.len()) {
+        for (value, p) in values.iter_mut().zip(&cell.net) {
+            *value = view.sheared(p).0;
+        }
+        let is_clear_of = |by| is_clear_of(values, view.e_control, by);
+        let rows = inverse(&view.middle().j).unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+        if rows.into_iter().any(is_clear_of) {
+            return;
+        }
     }
+    let f = cell.net.iter().map(|p| view.sheared(p).0).collect();
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
     let (mut steps, mut double, first) = (0, 0, out.len());
     while let Some(part) = open.pop() {
@@ -356,6 +370,9 @@ fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
             Content::AtMostOne(x) => Some(x),
             Content::Unknown => None,
         };
+        if inverse(&local.j).is_some_and(|rows| rows.into_iter().any(|row| part.is_clear_of(row))) {
+            continue;
+        }
         if let Some([x, y]) = start {
             let at = [0.5 + x, 0.5 + y];
             let [w, h] = part.width;

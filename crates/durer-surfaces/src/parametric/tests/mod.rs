@@ -6,7 +6,7 @@ mod sweeps;
 
 use super::*;
 use crate::laws::{TestRng, TestSurface, all_roots, dice, drawn, report};
-use crate::{All, Axis, AxisBox, BezierPatch, CappedCylinder, RootKind, Sphere, Torus};
+use crate::{All, Axis, AxisBox, BezierPatch, CappedCylinder, RootKind, Sphere, Steps, Torus};
 use durer_formula::Function;
 use durer_formula::{Builder, NodeId, Op};
 use durer_math::U;
@@ -226,6 +226,26 @@ fn signs_add_up_along_tangents() {
     println!("{} of {rays} do not add up", off.len());
     report(rays);
     assert!(off.is_empty(), "{:?}", off[0]);
+}
+
+/// `r = v² / 2`, `y = -3 v`: slopes along `u` vanish at the tip, to second order. 1024 pieces end there.
+#[test]
+fn a_ray_through_a_tip_takes_a_bounded_number_of_steps() {
+    let (mut p, u, v) = Pen::new();
+    let (sin, cos) = (p.of(Function::Sin, u), p.of(Function::Cos, u));
+    let (half, three) = (p.number(-0.5), p.number(-3.0));
+    let square = p.times(v, v);
+    let r = p.times(square, half);
+    let (x, y, z) = (p.times(r, cos), p.times(three, v), p.times(r, sin));
+    let spike = p.made([x, y, z], [[0.0, 2.0 * PI], [0.0, 1.0]], None).unwrap();
+    for direction in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(1.0, 2.0, 3.0)] {
+        Steps::take();
+        let roots = all_roots(&spike, &Ray::new((direction * -2.0).to_point(), direction));
+        let steps = Steps::take().total();
+        assert!(roots.iter().any(|root| root.lo <= 2.0 && root.hi >= 2.0), "{direction:?}: {roots:?}");
+        // Of a piece sixteen cuts in eight: 48 halvings of `v`.
+        assert!(steps <= 1024 * 24, "{direction:?}: {steps}");
+    }
 }
 
 #[test]

@@ -674,6 +674,7 @@ impl Limit {
             sign: 0,
             turn: sight.turn,
             on_trim: false,
+            is_shared: false,
             is_zero: false,
         });
     }

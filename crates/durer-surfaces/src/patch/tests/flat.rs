@@ -136,3 +136,22 @@ fn lines_in_the_plane_of_a_flat_patch_meet_it_within_its_hull() {
     assert!(uncertain > 500);
     report(lines);
 }
+
+/// A line in the plane of a triangle but for an angle of 2.8e-17 goes through it once. Parts of the
+/// triangle, a patch with an edge that is one point, cannot be proven to hold that crossing.
+#[test]
+fn a_line_almost_in_the_plane_has_the_sign_of_its_crossing() {
+    let corners = [
+        [-0.013258226712515538, -0.006035289185656781, 0.014401001498325551],
+        [0.00185252224326405, 0.026545659369410564, 0.02450304277509182],
+        [-0.002900403101261495, -0.012357195574609306, -0.025770928193837216],
+        [-0.002900403101261495, -0.012357195574609306, -0.025770928193837216],
+    ];
+    let triangle = BezierPatch::new([2, 2], &corners.map(Point3::from)).unwrap();
+    let origin = Point3::new(-0.000860752140938497, 0.012447098398003236, 0.009132326317956099);
+    let direction = Vec3::new(-0.1314180227863248, -0.5083191341453965, -0.45760135577601224);
+    let signs = |ray: &Ray| all_roots(&triangle, ray).iter().map(|r| (r.kind, r.sign)).collect::<Vec<_>>();
+    // In exact arithmetic d . n is positive.
+    assert_eq!(signs(&Ray::new(origin, direction)), [(RootKind::Cluster, 1)]);
+    assert_eq!(signs(&Ray::new(origin, -direction).with_range(-1.0, 0.0)), [(RootKind::Cluster, -1)]);
+}

@@ -153,7 +153,8 @@ impl Pass<'_, '_> {
     }
 
     /// The order of two crossings along the ray; equal if they are at one point, or nearer to each
-    /// other than `2^-200`, or if the ray is not exactly known.
+    /// other than `2^-200`, times the slope of a ray that is almost level, or if the ray is not
+    /// exactly known.
     #[cold]
     #[inline(never)]
     pub(super) fn order(&self, a: &Crossed, b: &Crossed) -> Ordering {
@@ -164,9 +165,10 @@ impl Pass<'_, '_> {
         let (Some(mut a), Some(mut b)) = (self.exact(a, &ray), self.exact(b, &ray)) else {
             return Ordering::Equal;
         };
-        // The height of a ray that is almost level hardly changes between two crossings.
+        // The height of a ray that is almost level hardly changes between two crossings, the less the
+        // nearer they are: beside the lowest point of a profile, by the square of its slope.
         let steep = ray.d[1].exponent().map_or(0, |e| i32::try_from(-e).unwrap_or(0).clamp(0, 2200));
-        for bits in [80, 250 + steep] {
+        for bits in [80, 250 + steep, 250 + 2 * steep] {
             let ((a_lo, a_hi), (b_lo, b_hi)) = (a.key(bits), b.key(bits));
             if a_hi < b_lo {
                 return Ordering::Less;

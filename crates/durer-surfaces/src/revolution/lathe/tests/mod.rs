@@ -174,6 +174,22 @@ fn where_the_profile_crosses_itself_both_walls_are_met() {
     assert_eq!(met([2.0, -1.0, 0.0], [0.0, 1.0, 0.0]), [(1.0, -1), (1.0, 1)]);
 }
 
+/// An almost level ray leaves through the lowest point of a ring, which it enters `2^-1050` before.
+#[test]
+fn crossings_beside_the_lowest_point_are_in_order() {
+    let points = [[1.0, 1.0], [2.0, -1.0], [4.0, 1.0], [2.0, 3.0], [1.0, 1.0], [2.0, -1.0], [4.0, 1.0]];
+    let ring = Lathe::new(LatheSpline::Cubic, &points).unwrap();
+    for slope in [-5e-324, -1e-300, -1e-30, 1e-30, 1e-300, 5e-324] {
+        let ray = Ray::new(Point3::new(0.0, -1.0, 2.0), Vec3::new(0.0, slope, -1.0));
+        let roots = all_roots(&ring, &ray.with_range(-1.0, 1.0));
+        let [enters, leaves] = &roots[..] else { panic!("{slope}: {roots:?}") };
+        assert_eq!((enters.sign, leaves.sign), (-1, 1), "{slope}: {roots:?}");
+        let (at_start, other) = if slope < 0.0 { (leaves, enters) } else { (enters, leaves) };
+        assert!(at_start.lo <= 0.0 && at_start.hi >= 0.0, "{slope}: {roots:?}");
+        assert!(if slope < 0.0 { other.lo < 0.0 } else { other.hi > 0.0 }, "{slope}: {roots:?}");
+    }
+}
+
 #[test]
 fn rays_through_joints_and_poles_go_in_as_often_as_out() {
     let mut through = 0;
