@@ -165,8 +165,8 @@ impl Pass<'_, '_> {
         let (Some(mut a), Some(mut b)) = (self.exact(a, &ray), self.exact(b, &ray)) else {
             return Ordering::Equal;
         };
-        // The height of a ray that is almost level hardly changes between two crossings, the less the
-        // nearer they are: beside the lowest point of a profile, by the square of its slope.
+        // The height of a ray that is almost level hardly changes between two crossings: beside the
+        // lowest point of a profile, where they are as near as the ray is level, by the square of that.
         let steep = ray.d[1].exponent().map_or(0, |e| i32::try_from(-e).unwrap_or(0).clamp(0, 2200));
         for bits in [80, 250 + steep, 250 + 2 * steep] {
             let ((a_lo, a_hi), (b_lo, b_hi)) = (a.key(bits), b.key(bits));
