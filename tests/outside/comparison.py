@@ -279,9 +279,9 @@ def matched(report, scene, ray, expected, hits, on_the_line):
                 for e, _ in held if is_patch else ():
                     if e.optional or straddles:
                         sums |= {s - e.sign + k for s in sums for k in (-1, 0, 1)}
-                if total not in sums and hasattr(leaf, "passes_the_border"):
+                if is_patch and total not in sums:
                     # Each of them at a border may have any sign.
-                    free = sum(leaf.passes_the_border(leaf.whole.ray(ray[:3], ray[3:6]), float(g["t_lo"]), float(g["t_hi"])) for g in (mine if is_patch else [h]))
+                    free = sum(leaf.passes_the_border(leaf.whole.ray(ray[:3], ray[3:6]), float(g["t_lo"]), float(g["t_hi"])) for g in mine)
                     report.counted["unproven crossing at a border, any sign"] += free
                     sums |= {s + k for s in sums for k in range(-free, free + 1)}
                 # Those that are told next to it, from one to the next.

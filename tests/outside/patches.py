@@ -132,6 +132,10 @@ class Patch(Region):
     def passes_an_edge(self, ray, lo, hi):
         return False
 
+    def passes_the_border(self, ray, lo, hi):
+        """Whether rounding decides if what is met in a bracket is on the surface, beyond what crossings on borders say."""
+        return False
+
     def is_tangent(self, ray, lo, hi):
         """Whether a crossing that may not be proven, or a place where two of them come and go, is in a cluster's bracket: that holds all that is open, but for the error along the ray."""
         wide = self.error(ray) / max(abs(F(x, ray[2])) for x in ray[1])
