@@ -175,11 +175,11 @@ class Parametric(Net):
         return abs(far), far >= 0
 
     def apart(self, p, q):
-        """Beyond a seam a part's own parameter changes otherwise, in second order."""
+        """Across the turned seam the parameters of both parts, tangents of half an angle, differ in second order: by 4 sin(h / 2)^2 times the square of the distance from it, h half of a part's angle, and less of the domain. As h < 1, that is less than the square."""
         if self.is_turned_over(p, q):
             turn = self.domain[0][1]
             q = (q[0] + (turn if p[0] > q[0] else -turn), self.domain[1][1] - q[1])
-            return max(F(0), super().apart(p, q) - 16 * min(abs(p[0]), abs(p[0] - turn)) ** 2)
+            return max(F(0), super().apart(p, q) - min(abs(p[0]), abs(p[0] - turn)) ** 2)
         return super().apart(p, q)
 
     def is_turned_over(self, p, q):
