@@ -126,7 +126,8 @@ impl View<'_> {
         (Local { f, j }, Limits { e, e_j, h: [[0.0; 3]; 2] })
     }
 
-    /// About how much both functions change along each parameter of a piece, at most.
+    /// A bound on the change of both functions along each parameter of a piece, but for rounding: it only
+    /// chooses what is cut.
     pub(super) fn change(&self, piece: &Piece) -> [f64; 2] {
         let Line { axes, slope, .. } = self.line;
         [0, 1].map(|k: usize| {

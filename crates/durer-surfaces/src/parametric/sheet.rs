@@ -225,23 +225,21 @@ impl Sheet {
                     turns_around(&view, around).map(|turns| if is_reversed { -turns } else { turns })
                 };
                 let (domain, has_seam) = (&view.face.domain, view.face.has_seam);
-                let (j, both) = match sum_of_signs(&places, i, domain, has_seam, sum_in) {
+                let both = match sum_of_signs(&places, i, domain, has_seam, sum_in) {
                     Sum::Of(sum) => {
                         found[i].turn = sum;
-                        i += 1;
-                        continue;
+                        None
                     }
-                    Sum::Unknown => {
-                        i += 1;
-                        continue;
-                    }
-                    Sum::Near(j) => (j, united(&found[i], &found[j])),
-                    Sum::Across(j, size) => (j, joined_across(&found[i], &found[j], size)),
+                    Sum::Unknown => None,
+                    Sum::Near(j) => Some((j, united(&found[i], &found[j]))),
+                    Sum::Across(j, size) => Some((j, joined_across(&found[i], &found[j], size))),
                 };
-                found[i] = both;
-                found.swap_remove(j);
-                i = 0;
-                continue;
+                if let Some((j, both)) = both {
+                    found[i] = both;
+                    found.swap_remove(j);
+                    i = 0;
+                    continue;
+                }
             }
             i += 1;
         }

@@ -24,8 +24,6 @@ const NOISE: f64 = 8.0;
 /// The least width of a part, in parameters of its cell.
 const LEAST: f64 = durer_math::scale::pow2(-48);
 
-/// The most control points that are seen together before a cell is halved: those of a bicubic patch.
-const SEEN: usize = 16;
 /// The most parts of a cell that are examined in double-double for one ray.
 const MOST_DOUBLE: usize = 64;
 /// A touch leaves at most as many parts open as meet in one point, twice. If there are more, a
@@ -336,20 +334,14 @@ pub(super) fn meet(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
 fn meet_here(view: &View<'_>, exact: &Exact<'_>, out: &mut Vec<Found>) {
     let cell = view.cell;
     let [nu, nv] = cell.size;
-    // Most lines that come here cross the surface just beyond the cell: where the functions are about
-    // the parameters themselves, the control values say so.
-    let mut values = [[0.0; 2]; SEEN];
-    if let Some(values) = values.get_mut(..cell.net.len()) {
-        for (value, p) in values.iter_mut().zip(&cell.net) {
-            *value = view.sheared(p).0;
-        }
-        let is_clear_of = |by| is_clear_of(values, view.e_control, by);
-        let rows = inverse(&view.middle().j).unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
-        if rows.into_iter().any(is_clear_of) {
-            return;
-        }
+    let f: Vec<[f64; 2]> = cell.net.iter().map(|p| view.sheared(p).0).collect();
+    // Most lines that come here cross the surface just beyond the cell. Times the inverse of the slopes,
+    // the functions are nearly the distances of both parameters from the crossing, and their control
+    // values exclude it.
+    let rows = inverse(&view.middle().j);
+    if rows.is_some_and(|rows| rows.into_iter().any(|row| is_clear_of(&f, view.e_control, row))) {
+        return;
     }
-    let f = cell.net.iter().map(|p| view.sheared(p).0).collect();
     let mut open = vec![Part { f, e: view.e_control, from: [0.0; 2], width: [1.0; 2] }];
     let (mut steps, mut double, first) = (0, 0, out.len());
     while let Some(part) = open.pop() {

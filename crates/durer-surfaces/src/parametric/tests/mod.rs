@@ -243,8 +243,9 @@ fn a_ray_through_a_tip_takes_a_bounded_number_of_steps() {
         let roots = all_roots(&spike, &Ray::new((direction * -2.0).to_point(), direction));
         let steps = Steps::take().total();
         assert!(roots.iter().any(|root| root.lo <= 2.0 && root.hi >= 2.0), "{direction:?}: {roots:?}");
-        // Each piece is cut sixteen times, and each cut halves `v` three times.
-        assert!(steps <= 1024 * 24, "{direction:?}: {steps}");
+        // A cut halves `v` three times, and at most 48 halvings are left.
+        println!("{direction:?}: {steps} steps");
+        assert!(steps <= 1024 * 16, "{direction:?}: {steps}");
     }
 }
 

@@ -155,3 +155,37 @@ fn a_line_almost_in_the_plane_has_the_sign_of_its_crossing() {
     assert_eq!(signs(&Ray::new(origin, direction)), [(RootKind::Cluster, 1)]);
     assert_eq!(signs(&Ray::new(origin, -direction).with_range(-1.0, 0.0)), [(RootKind::Cluster, -1)]);
 }
+
+/// A tangent of the paraboloid `y = x² + z²` meets it nowhere else, so the signs add up to 0. The lines
+/// are tangents exactly, which no arithmetic with errors can prove.
+#[test]
+fn signs_add_up_along_tangents_of_a_paraboloid() {
+    let squares = [1.0, -1.0, 1.0];
+    let net: Vec<Point3> = (0..9)
+        .map(|k| (k % 3, k / 3))
+        .map(|(i, j)| Point3::new(i as f64 - 1.0, squares[i] + squares[j], j as f64 - 1.0))
+        .collect();
+    let bowl = BezierPatch::new([3, 3], &net).unwrap();
+    let (mut rays, mut unproven, mut off) = (0, 0, Vec::new());
+    for case in drawn(2000) {
+        let mut dice = crate::laws::dice(85, case);
+        let [x, z] = [0.0; 2].map(|_: f64| dice.integer(-6, 6) / 8.0);
+        let [a, b] = [0.0; 2].map(|_: f64| dice.integer(-4, 4));
+        let direction = Vec3::new(a, 2.0 * (x * a + z * b), b);
+        if direction == Vec3::ZERO {
+            continue;
+        }
+        let back = dice.pick(&[0.0, 0.5, 4.0, 1024.0, 1048576.0]);
+        let place = Vec3::new(x, x * x + z * z, z);
+        let ray = Ray::new((place - direction * back).to_point(), direction).with_range(-1e9, 1e9);
+        rays += 1;
+        let roots = all_roots(&bowl, &ray);
+        unproven += roots.iter().filter(|root| root.kind != RootKind::Simple).count();
+        if roots.iter().map(|root| i32::from(root.sign)).sum::<i32>() != 0 {
+            off.push((ray, roots));
+        }
+    }
+    println!("{} of {rays} do not add up, {unproven} unproven", off.len());
+    report(rays);
+    assert!(off.is_empty() && unproven > 1000, "{unproven}: {:?}", off.first());
+}
