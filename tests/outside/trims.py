@@ -217,12 +217,15 @@ def shape(rng, left, place, low=0.6):
         points = [place(*p) for p in ring(rng, 3 * n, left, low)]
         points = [p for k in range(n) for p in [*points[3 * k : 3 * k + 3], points[(3 * k + 3) % (3 * n)]]]
         if style == "cusped":
-            # Pieces that begin or end at rest, straight ones among them.
+            # Pieces that begin or end at rest, straight ones among them; but two straight ones would be the same line.
+            bent = points[5]
             for k in range(n):
                 if rng.random() < 0.6:
                     points[4 * k + 1] = points[4 * k]
                 if rng.random() < 0.6:
                     points[4 * k + 2] = points[4 * k + 3]
+            if n == 2 and all(points[4 * k + 1] == points[4 * k] and points[4 * k + 2] == points[4 * k + 3] for k in range(2)):
+                points[5] = bent
         return Loop.cubics(points)
     degree, weighted = rng.randint(1, 5), rng.random() < 0.6
     n = rng.randint(degree + 4, degree + 7)

@@ -8,6 +8,7 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Comparison, Function};
 use durer_formula::{Formula, FormulaError, NodeId, Op};
 use durer_math::{Interval, Point3};
@@ -237,9 +238,11 @@ impl Parser<'_> {
         let number = self.float()?;
         self.expect(Mark::ParenClose)?;
         self.language.noise_is_used |= number == formulas::PLAIN_NOISE;
-        match formulas::internal(number, self.language.noise_generator()) {
+        let tables = self.noise_tables();
+        let rows = tables.map_or_else(NoiseTable::own_rows, |tables| tables.rows);
+        match formulas::internal(number, self.language.noise_generator(), rows) {
             Ok((formula, noisy)) => {
-                let table = self.noise_tables().map(|[scalar, ..]| scalar);
+                let table = tables.map(|tables| tables.components[0]);
                 let mut called = Called::from(formula.with_noise(table));
                 called.noisy = noisy;
                 Ok(called)

@@ -14,7 +14,7 @@
 //!
 //! `N` is the noise of the chosen generator. `n` is the underlying noise, around zero; `n'` and
 //! `n''` are the other components of learned noise, or durer's own `n` at shifted points. For the
-//! first generator, `m` is `N`. For the second, `m` is `2 N - 1/2`, clamped to `[0, 1]` (in `T`
+//! first generator, `m` is `N`. For the others, `m` is `2 N - 1/2`, clamped to `[0, 1]` (in `T`
 //! clamped only in the first octave). `t` is the turbulence, and `a` is agate's own. All this was
 //! found from POV-Ray's values, with POV-Ray's own noise, and agrees with them to rounding.
 
@@ -23,9 +23,11 @@ use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 use durer_math::scale::pow2;
 use durer_math::{F8, elementary};
+use durer_scene::{NoiseGenerator, Octaves, PointWarp};
 
 use crate::formulas;
 use crate::keywords::Keyword;
+use crate::pattern_function::moved;
 use crate::texture::{Pattern, PatternKind};
 
 /// `vturbulence`: the sum of octaves of vector noise at a point, with the factor of frequency, the
@@ -62,12 +64,20 @@ type Made<T> = Option<T>;
 /// cells of the lattice.
 const ELSEWHERE: [[f64; 3]; 2] = [[157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
 
-/// `N` of the first generator, and below it of the second.
-const OLD: &str = "max(min(noise(x, y, z) + 0.5, 1), 0)";
-const NEW: &str = "max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0)";
-/// The noise of the second generator, spread: `2 N - 1/2`.
-const SPREAD: &str = "2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5";
-const KEPT: &str = "max(min(2*max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0) - 0.5, 1), 0)";
+/// `N` of the three generators; that of the third is made of the noise of a table of rows.
+const FIRST: &str = "max(min(noise(x, y, z) + 0.5, 1), 0)";
+const SECOND: &str = "max(min((noise(x, y, z) + 1.05242)*0.48985582, 1), 0)";
+const THIRD: &str = "max(min(0.795*noise(x + P0, y + P0, z + P0) + 0.4925, 1), 0)";
+
+/// `N` of the third generator, with the noise of this table.
+pub(crate) fn third(rows: &'static NoiseTable) -> Option<Formula> {
+    let formula = formulas::on_paper(THIRD, 1)?.with_noise(Some(rows));
+    let mut b = Builder::new();
+    let arguments =
+        [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?, b.constant(noise::ROWS_SHIFT).ok()?];
+    let root = b.call(&formula, &arguments).ok()?;
+    Some(b.finish(root, 3))
+}
 
 /// The turbulence that is applied before a pattern is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,8 +90,17 @@ pub(crate) struct Turbulence {
     pub(crate) agate: f64,
     /// The noise generator.
     pub(crate) generator: f64,
-    /// The three components of the noise, if it is not durer's own.
-    pub(crate) tables: Option<[&'static NoiseTable; 3]>,
+    /// The noise, if it is not durer's own.
+    pub(crate) tables: Option<NoiseTables>,
+}
+
+/// The tables of a noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct NoiseTables {
+    /// The components of the vector noise, of which the first is the scalar noise.
+    pub(crate) components: [&'static NoiseTable; 3],
+    /// The table of the third generator.
+    pub(crate) rows: &'static NoiseTable,
 }
 
 impl Default for Turbulence {
@@ -109,23 +128,17 @@ impl Turbulence {
         let (count, lambda, omega) = (self.octaves(), self.lambda, self.omega);
         durer_scene::Turbulence {
             amount: durer_math::Vec3::new(x, y, z),
-            octaves: durer_scene::Octaves { count, lambda, omega },
-            old: self.is_old(),
+            octaves: Octaves { count, lambda, omega },
+            generator: self.generator(),
         }
     }
 
-    /// Whether the noise of patterns is the first generator's. The third's is shown as the second's.
-    pub(crate) fn is_old(&self) -> bool {
-        self.generator < 2.0
+    pub(crate) fn generator(&self) -> NoiseGenerator {
+        NoiseGenerator::numbered(self.generator)
     }
 
     fn octaves(&self) -> u32 {
         self.octaves.trunc().clamp(1.0, MOST_OCTAVES) as u32
-    }
-
-    /// From 2 up to 3 it is the second generator.
-    fn is_new(&self) -> bool {
-        (2.0..3.0).contains(&self.generator)
     }
 
     /// The weight of octave `k`, and the factor of its points. The language stores both in single
@@ -143,14 +156,6 @@ const MOST_OCTAVES: f64 = 10.0;
 pub(crate) fn is_noise(word: Keyword) -> bool {
     use Keyword::{Agate, Bozo, Bumps, Dents, Granite, Spotted, Wrinkles};
     matches!(word, Agate | Bozo | Bumps | Dents | Granite | Spotted | Wrinkles)
-}
-
-/// Whether the pattern needs noise of a generator that is not supported. Vector noise is the same
-/// for all generators.
-pub(crate) fn lacks_generator(pattern: &Pattern) -> bool {
-    let PatternKind::Written(word, _) = pattern.kind else { return false };
-    let asks = is_noise(word) || word == Keyword::Marble && !pattern.modifiers.turbulence.is_none();
-    asks && pattern.modifiers.turbulence.generator.trunc() == 3.0
 }
 
 /// Builds formulas step by step.
@@ -178,20 +183,32 @@ impl Draft<'_> {
     }
 
     fn text(&mut self, text: &'static str, p: [NodeId; 3], parameters: &[NodeId]) -> Made<NodeId> {
-        let table = self.turbulence.tables.map(|[scalar, ..]| scalar);
+        let table = self.turbulence.tables.map(|tables| tables.components[0]);
         let formula: Formula = formulas::on_paper(text, parameters.len() as u32)?.with_noise(table);
         let made: Result<NodeId, FormulaError> = self.b.call(&formula, &[&p, parameters].concat());
         made.ok()
     }
 
+    /// `N`.
+    fn noise(&mut self, p: [NodeId; 3]) -> Made<NodeId> {
+        match self.turbulence.generator() {
+            NoiseGenerator::First => self.text(FIRST, p, &[]),
+            NoiseGenerator::Second => self.text(SECOND, p, &[]),
+            NoiseGenerator::Third => {
+                let rows = self.turbulence.tables.map_or_else(NoiseTable::own_rows, |tables| tables.rows);
+                self.b.call(&third(rows)?, &p).ok()
+            }
+        }
+    }
+
     /// `m`; without the clamp if `is_kept` is false.
     fn grain(&mut self, p: [NodeId; 3], is_kept: bool) -> Made<NodeId> {
-        let text = match (self.turbulence.is_new(), is_kept) {
-            (false, _) => OLD,
-            (true, true) => KEPT,
-            (true, false) => SPREAD,
-        };
-        self.text(text, p, &[])
+        let noise = self.noise(p)?;
+        if self.turbulence.generator() == NoiseGenerator::First {
+            return Some(noise);
+        }
+        let text = if is_kept { "max(min(2*P0 - 0.5, 1), 0)" } else { "2*P0 - 0.5" };
+        self.text(text, p, &[noise])
     }
 
     /// A sum over octaves, given by weight and factor.
@@ -225,7 +242,7 @@ impl Draft<'_> {
         let turbulence = self.turbulence;
         self.sum(p, (0..turbulence.octaves()).map(|k| turbulence.octave(k)), |draft, mut p| {
             if let Some(tables) = turbulence.tables {
-                return draft.push(Op::Noise(Some(tables[axis]), p));
+                return draft.push(Op::Noise(Some(tables.components[axis]), p));
             }
             if let Some(offset) = axis.checked_sub(1).map(|i| ELSEWHERE[i]) {
                 for (x, offset) in p.iter_mut().zip(offset) {
@@ -269,11 +286,9 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
     let turbulence = *pattern.modifiers.turbulence;
     let mut draft = Draft { b, turbulence };
     match word {
-        Keyword::Bozo | Keyword::Bumps | Keyword::Spotted => {
-            draft.text(if turbulence.is_new() { NEW } else { OLD }, own, &[])
-        }
+        Keyword::Bozo | Keyword::Bumps | Keyword::Spotted => draft.noise(own),
         Keyword::Dents => {
-            let noise = draft.text(if turbulence.is_new() { NEW } else { OLD }, own, &[])?;
+            let noise = draft.noise(own)?;
             draft.push(Op::Powi(noise, 3))
         }
         Keyword::Wrinkles => {
@@ -312,12 +327,21 @@ pub(crate) fn value(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Opt
     }
 }
 
-/// A point in a pattern's space with turbulence, as most patterns use it.
-pub(crate) fn stirred(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<[NodeId; 3]> {
-    let turbulence = *pattern.modifiers.turbulence;
-    if pattern.kind.stirs_itself() || turbulence.is_none() {
-        Some(own)
-    } else {
-        Draft { b, turbulence }.stirred(own)
+/// The point at which a pattern and what it selects are evaluated: a point in the pattern's space with
+/// warps, and with turbulence as most patterns use it. `None` if no formula of a warp is known.
+pub(crate) fn warped(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Made<[NodeId; 3]> {
+    let (mut p, turbulence) = (own, *pattern.modifiers.turbulence);
+    for (before, warp) in pattern.modifiers.warps.iter().rev() {
+        let PointWarp::Turbulence(warp) = warp else { return None };
+        let (amount, Octaves { count, lambda, omega }) = (warp.amount.to_array(), warp.octaves);
+        let turbulence = Turbulence { amount, octaves: count.into(), lambda, omega, ..turbulence };
+        p = Draft { b, turbulence }.stirred(p)?;
+        if !before.is_identity() {
+            p = moved(b, p, &before.inverse()?).ok()?;
+        }
     }
+    if pattern.kind.stirs_itself() || turbulence.is_none() {
+        return Some(p);
+    }
+    Draft { b, turbulence }.stirred(p)
 }

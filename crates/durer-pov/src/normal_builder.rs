@@ -14,7 +14,7 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
     let kind = match kind {
         NormalKind::Pattern(kind) => kind.clone(),
         // Only its warps are used.
-        NormalKind::Facets(_) => PatternKind::Average,
+        NormalKind::Facets(_) | NormalKind::NormalFacets(_) => PatternKind::Average,
     };
     let pattern = Pattern { kind, modifiers: own.modifiers.clone() };
     let body = match (&own.normals, push_of(own)) {
@@ -28,7 +28,8 @@ pub(crate) fn normal(own: &Normal, at: Place) -> Result<Option<scene::Normal>> {
         // A slope map has no effect on them (a fact of the language).
         (None, Some(push)) => {
             // Facets have an amount of their own.
-            let amount = if matches!(push, scene::Push::Facets(_)) { 1.0 } else { own.amount };
+            let is_facets = matches!(push, scene::Push::Facets(_) | scene::Push::NormalFacets(_));
+            let amount = if is_facets { 1.0 } else { own.amount };
             scene::NormalBody::Push { warps: warps_of(&pattern, at)?, push, amount }
         }
         (None, _) if pattern.kind == PatternKind::Average => return Ok(None),
@@ -72,12 +73,13 @@ fn push_of(own: &Normal) -> Option<scene::Push> {
     };
     let kind = match own.kind.as_ref()? {
         NormalKind::Facets(size) => return Some(scene::Push::Facets(*size)),
+        NormalKind::NormalFacets(width) => return Some(scene::Push::NormalFacets(*width)),
         NormalKind::Pattern(kind) => kind,
     };
     match kind {
         PatternKind::Written(Keyword::Bumps, _) => Some(scene::Push::Bumps),
         PatternKind::Written(Keyword::Dents, _) => {
-            Some(scene::Push::Dents { old: own.modifiers.turbulence.is_old() })
+            Some(scene::Push::Dents { generator: own.modifiers.turbulence.generator() })
         }
         PatternKind::Written(Keyword::Wrinkles, _) => Some(scene::Push::Wrinkles),
         PatternKind::Written(Keyword::Ripples, _) => Some(ripples(false)),

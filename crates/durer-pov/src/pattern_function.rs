@@ -133,13 +133,14 @@ impl Parser<'_> {
             let mut b = Builder::new();
             let p = [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?];
             let own = moved(&mut b, p, &pattern.modifiers.place.inverse()?).ok()?;
+            let own = noise_pattern::warped(&mut b, &pattern, own)?;
             let root = written(&mut b, &pattern, own)?;
             Some(b.finish(root, 3))
         };
         if pattern.modifiers.place.inverse().is_none() {
             return Err(Error::invalid(place, NOT_INVERTIBLE));
         }
-        let exact = if noise_pattern::lacks_generator(&pattern) { None } else { formula() };
+        let exact = formula();
         self.language.noise_is_used |= exact.as_ref().is_some_and(has_noise);
         match exact {
             Some(formula) if !is_made_of_chance(&formula) => Ok(formula.into()),
@@ -175,12 +176,8 @@ fn is_made_of_chance(formula: &Formula) -> bool {
     formula.ops().iter().any(|op| matches!(op, Op::Noise(..) | Op::Nearest(..)))
 }
 
-/// The value of a pattern at a point in its own space; `None` if no formula is known.
+/// The value of a pattern at a point in its own space with its warps; `None` if no formula is known.
 pub(crate) fn written(b: &mut Builder, pattern: &Pattern, own: [NodeId; 3]) -> Option<NodeId> {
-    if !pattern.modifiers.warps.is_empty() {
-        return None;
-    }
-    let own = noise_pattern::stirred(b, pattern, own)?;
     let value = match pattern.kind {
         PatternKind::Checker => called(b, CHECKER, own, &[])?,
         PatternKind::Gradient(along) => {

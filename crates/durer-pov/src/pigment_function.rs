@@ -17,7 +17,7 @@ use durer_scene::TextureSource;
 
 use crate::diagnostics::{Error, ErrorKind, Result};
 use crate::formulas::pieces::{Knot, chosen};
-use crate::noise_pattern::lacks_generator;
+use crate::noise_pattern;
 use crate::parser::Parser;
 use crate::pattern_function::{NOT_INVERTIBLE, has_noise, moved, written};
 use crate::sampled::Called;
@@ -110,17 +110,15 @@ fn constant(b: &mut Builder, colour: &[f64; 5]) -> std::result::Result<Colour, L
     steps.try_into().map_err(|_| Lack::Formula)
 }
 
-/// The value of a pattern, and the point in its own space.
+/// The value of a pattern, and the point in its own space with its warps, where its entries are evaluated.
 fn place_and_value(
     b: &mut Builder,
     p: [NodeId; 3],
     pattern: &Pattern,
 ) -> std::result::Result<(NodeId, [NodeId; 3]), Lack> {
-    if lacks_generator(pattern) {
-        return Err(Lack::Formula);
-    }
     let back = pattern.modifiers.place.inverse().ok_or(Lack::Place)?;
     let own = moved(b, p, &back).map_err(|_| Lack::Formula)?;
+    let own = noise_pattern::warped(b, pattern, own).ok_or(Lack::Formula)?;
     Ok((written(b, pattern, own).ok_or(Lack::Formula)?, own))
 }
 

@@ -8,13 +8,13 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId};
 use durer_math::Interval;
 use durer_render::FunctionValues;
 use durer_scene::{LearnedNoise, SampledFunction, Settings, TextureSample, TextureSource};
 
 use crate::formulas::Noisy;
+use crate::noise_pattern::NoiseTables;
 use crate::parser::Parser;
 
 /// The number of the first input that stands for a texture while a function is read: more than the
@@ -149,8 +149,9 @@ impl Parser<'_> {
     }
 
     /// The components of the noise, if it is not durer's own.
-    pub(crate) fn noise_tables(&self) -> Option<[&'static NoiseTable; 3]> {
-        self.options.noise.as_ref().map(|noise| noise.components())
+    pub(crate) fn noise_tables(&self) -> Option<NoiseTables> {
+        let noise = self.options.noise.as_ref()?;
+        Some(NoiseTables { components: noise.components(), rows: noise.rows() })
     }
 }
 

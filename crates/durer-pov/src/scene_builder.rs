@@ -537,9 +537,9 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
             })
         }),
         irid: own.irid.map(|film| {
-            let Film { amount, thickness, turbulence, old } = film;
+            let Film { amount, thickness, turbulence, generator } = film;
             let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
-            scene::Irid { amount, thickness, wavelength, turbulence, old }
+            scene::Irid { amount, thickness, wavelength, turbulence, generator }
         }),
         conserve_energy: own.conserve_energy,
     }

@@ -190,6 +190,12 @@ impl Parser<'_> {
     fn noise_generator(&mut self, place: Place) -> Result<()> {
         let before = self.language.noise_generator();
         let generator = self.float()?;
+        if !(1.0..4.0).contains(&generator) {
+            return Err(Error::invalid(
+                place,
+                format!("the noise generators are 1, 2 and 3, not {generator}"),
+            ));
+        }
         self.language.noise_generator = Some(generator);
         if self.language.noise_is_used && generator != before {
             let text = format!("functions of noise that were declared before keep noise generator {before}");

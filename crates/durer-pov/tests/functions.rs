@@ -183,14 +183,19 @@ fn functions_of_noise_are_their_formulas() {
         let said = value(&format!("{noise} {declarations}"), &format!("abs({left} - ({right}))"));
         assert_eq!(said, "0.000000000", "{left} is not {right}");
     };
-    // The default is the second generator. Any number but 2 and 3 means the first, which is made of
-    // the same sum.
+    // The default is the second generator. Any number but those from 2 to 4 means the first, which is made
+    // of the same sum.
     let plain = "#declare F = function { internal(76) };";
     zero(plain, "F(0.3, -1.2, 0.7)", "N(1)");
     let first = "min(max(N(1)/0.48985582 - 1.05242 + 0.5, 0), 1)";
     zero("", "G(0.3, -1.2, 0.7, 1)", first);
     zero("", "G(0.3, -1.2, 0.7, 0)", first);
     zero(&format!("global_settings {{ noise_generator 1 }} {plain}"), "F(0.3, -1.2, 0.7)", first);
+    zero(
+        &format!("global_settings {{ noise_generator 3 }} {plain}"),
+        "F(0.3, -1.2, 0.7)",
+        "G(0.3, -1.2, 0.7, 3)",
+    );
     let ridged = "#declare F = function { internal(59) }; #declare A = pow(0.7 - abs(S(1)), 2); \
         #declare B = pow(0.7 - abs(S(2.1)), 2)*min(max(A*1.5, 0), 1); #declare C = pow(0.7 - abs(S(4.41)), 2)*min(max(B*1.5, 0), 1);";
     zero(ridged, "F(0.3, -1.2, 0.7, 0.4, 2.1, 1, 0.7, 1.5, 2)", "A");
@@ -202,6 +207,7 @@ fn functions_of_noise_are_their_formulas() {
     zero(hetero, "F(0.3, -1.2, 0.7, 0.4, 2.1, 2, 0.7, 0, 2)", "A + (S(2.1) + 0.7)*pow(2.1, -0.4)");
     let ridge = "#declare F = function { internal(58) }; #declare R = function(f) { abs(N(f) - 0.4)/0.6 };";
     zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 1, 0.5, 0, 0.4, 2)", "R(1)");
+    zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 1, 0.5, 0, 0.4, 3)", "abs(G(0.3, -1.2, 0.7, 3) - 0.4)/0.6");
     let two = "(R(1) + 0.25*R(2.1))/1.25";
     zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 1.5, 0.5, 0, 0.4, 2)", two);
     zero(ridge, "F(0.3, -1.2, 0.7, 2.1, 0.5, 0.5, 0.2, 0.4, 2)", &format!("({two} - 0.2)/0.8"));
@@ -212,7 +218,7 @@ fn functions_of_noise_are_their_formulas() {
 #[test]
 fn patterns_of_noise_are_their_formulas() {
     let noise = "#declare G = function { internal(78) }; #declare N = function(f) { G(0.3*f, 0.4*f, 0.6*f, 2) }; \
-        #declare O = function(f) { G(0.3*f, 0.4*f, 0.6*f, 1) }; #declare S = function(f) { 2*N(f) - 0.5 }; #declare K = function(f) { min(max(S(f), 0), 1) };";
+        #declare O = function(f) { G(0.3*f, 0.4*f, 0.6*f, 1) }; #declare H = function(f) { G(0.3*f, 0.4*f, 0.6*f, 3) }; #declare S = function(f) { 2*N(f) - 0.5 }; #declare K = function(f) { min(max(S(f), 0), 1) };";
     let zero = |pattern: &str, right: &str| {
         let declared = format!("{noise} #declare F = function {{ pattern {{ {pattern} }} }};");
         let said = value(&declared, &format!("abs(F(0.3, 0.4, 0.6) - ({right}))"));
@@ -222,6 +228,7 @@ fn patterns_of_noise_are_their_formulas() {
         zero(word, "N(1)");
         zero(&format!("{word} noise_generator 1"), "O(1)");
         zero(&format!("{word} noise_generator 0"), "N(1)");
+        zero(&format!("{word} noise_generator 3"), "H(1)");
     }
     zero("dents", "pow(N(1), 3)");
     zero("bozo scale 1/2", "N(2)");
@@ -233,6 +240,7 @@ fn patterns_of_noise_are_their_formulas() {
     zero("wrinkles noise_generator 1 octaves 3 lambda 3", &sum("O(#)/(2*#)", 10));
     zero("granite", &sum("abs(0.5 - K(4*#))/#", 6));
     zero("granite noise_generator 1", &sum("abs(0.5 - O(4*#))/#", 6));
+    zero("granite noise_generator 3", &sum("abs(0.5 - min(max(2*H(4*#) - 0.5, 0), 1))/#", 6));
     // The first octave is clamped to [0, 1].
     let stir = format!("(K(1) - S(1) + {})", sum("S(#)/#", 6));
     let agate = |stir: &str| format!("pow((1 + sin(2*pi*(1.3*{stir} + 1.1*0.6)))/2, 0.77)");
@@ -269,6 +277,32 @@ fn patterns_of_noise_are_their_formulas() {
     let first = format!("{} {noise}", vectors("octaves 1"));
     assert_eq!(value(&first, &format!("abs({dx} + 0.5 - O(1))")), "0.000000000");
     assert_ne!(value(&first, &format!("abs({dy} + 0.5 - O(1))")), "0.000000000");
+}
+
+/// The formulas that surfaces need are those of the textures, which are evaluated otherwise.
+#[test]
+fn formulas_of_pigments_have_the_values_of_their_textures() {
+    let maps =
+        "pigment_map { [0 gradient x][0.6 wood turbulence 0.2][1 bozo colour_map { [0 rgb 0][1 rgb 1] }] }";
+    for pigment in [
+        format!("bozo {maps}"),
+        format!("granite noise_generator 3 {maps}"),
+        format!("bozo turbulence 0.7 {maps}"),
+        format!("marble turbulence 0.7 noise_generator 3 {maps} scale <0.5, 2, 1> rotate 30"),
+        format!("gradient y warp {{ turbulence 0.4 lambda 2.3 omega 0.52 }} {maps} scale 0.2"),
+        format!(
+            "bozo warp {{ turbulence 0.4 }} rotate 40 warp {{ turbulence <0.1, 0.2, 0.3> octaves 3 }} turbulence 0.3 {maps}"
+        ),
+    ] {
+        let declared = format!("#declare F = function {{ pigment {{ {pigment} }} }};");
+        let scene = scene(&format!("{declared} isosurface {{ function {{ F(x, y, z).green - 0.3 }} }}"));
+        let Shape::Isosurface(surface) = &scene.objects[0].shape else { panic!("{pigment}") };
+        for [x, y, z] in [[0.3, 0.4, 0.6], [-3.7, 1.2, 5.5], [100.1, -77.3, 0.9]] {
+            let sampled: f64 = value(&declared, &format!("F({x}, {y}, {z}).green - 0.3")).parse().unwrap();
+            let exact = surface.function.value(&[x, y, z]);
+            assert!((exact - sampled).abs() < 2e-9, "{pigment}: {exact} {sampled}");
+        }
+    }
 }
 
 /// A point, and POV-Ray's value there.
@@ -555,7 +589,8 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
         59,
         "cannot bound",
     );
-    says("isosurface { function { pattern { bozo noise_generator 3 } } }", 14, "cannot bound");
+    says("isosurface { function { pattern { bozo warp { repeat x } } } }", 14, "cannot bound");
+    says("global_settings { noise_generator 4 }", 19, "1, 2 and 3, not 4");
     says(
         "#declare F = function { pattern { slope { y } } }; sphere { 0, F(1, 2, 3) }",
         35,
@@ -571,11 +606,8 @@ fn what_is_wrong_with_a_function_is_said_once_and_where() {
     says("sphere { 0, 1 pigment { slope { y, 1, 1 } } }", 36, "is empty");
     let ridged = "#declare F = function { internal(59) }";
     says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 21, 1, 1, 2) }}"), 52, "at most 20");
-    says(&format!("{ridged} sphere {{ 0, F(1, 2, 3, 1, 2, 4, 1, 1, 3) }}"), 52, "noise generator 3");
     let unknown = "isosurface { function { F(x, y, z, 1, 2, x, 1, 1, 2) } }";
     says(&format!("{ridged} {unknown}"), 64, "number of octaves that is not known");
-    let third = "global_settings { noise_generator 3 } #declare F = function { internal(76) };";
-    says(&format!("{third} sphere {{ 0, F(1, 2, 3) }}"), 91, "noise generator 3");
     let spline = "#declare S = spline { 0, <1, 2> 1, <3, 4> };";
     says("#declare S = spline { };", 14, "no points");
     says("#declare S = spline { 0, <1, 2> 0, <3, 4> };", 14, "two points at t = 0: <1, 2> and <3, 4>");

@@ -1,6 +1,6 @@
 //! Finishes: how a surface reflects and scatters light.
 
-use crate::Rgb;
+use crate::{NoiseGenerator, Rgb};
 
 /// How a layer of a texture reflects and scatters light.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,8 +80,8 @@ pub struct Irid {
     /// How much the thickness varies from place to place: it is multiplied by
     /// `1 + turbulence (2 T - 1)`, where `T` is five octaves of noise at the point in space.
     pub turbulence: f64,
-    /// Whether that noise uses the first generator.
-    pub old: bool,
+    /// The generator of that noise.
+    pub generator: NoiseGenerator,
 }
 
 /// How a surface reflects its surroundings.

@@ -1,4 +1,4 @@
-//! POV-Ray's noise, for those who have its table of 267 numbers.
+//! POV-Ray's noise, for those who have its tables.
 //!
 //! ```text
 //!   n(p) = sum of w (T[b]/2 + T[b+1] x + T[b+2] y + T[b+3] z)    over the corners of the lattice's cell
@@ -6,8 +6,12 @@
 //!
 //! `(x, y, z)` is the offset from the corner, `w` the product of `3 t^2 - 2 t^3` along the three
 //! axes, and `b` a hash of the corner from 0 to 255. The three components of the vector noise have
-//! `b`, `b + 4` and `b + 8`. The table is not part of durer: it is measured from an installed
-//! POV-Ray.
+//! `b`, `b + 4` and `b + 8`.
+//!
+//! The third noise generator is gradient noise instead: each corner has one of 2048 unit vectors `g`
+//! as slope and no value, and its points are shifted ([`durer_formula::noise::ROWS_SHIFT`]).
+//!
+//! The numbers are not part of durer: they are measured from an installed POV-Ray.
 
 use durer_formula::noise::permutation::{PERIOD, permutation, wide_hash};
 use durer_formula::noise::{self, NoiseTable};
@@ -24,6 +28,8 @@ const FIRST_CELL: i64 = 10_000;
 pub struct LearnedNoise {
     /// The scalar noise, which is the first component of the vector noise, and the other two.
     components: [&'static NoiseTable; 3],
+    /// The table of the third noise generator.
+    rows: &'static NoiseTable,
 }
 
 impl core::fmt::Debug for LearnedNoise {
@@ -51,7 +57,19 @@ impl LearnedNoise {
             });
             NoiseTable::shared(&points, once)
         };
-        Some(Self { components: [component(0)?, component(4)?, component(8)?] })
+        let components = [component(0)?, component(4)?, component(8)?];
+        Some(Self { components, rows: NoiseTable::own_rows() })
+    }
+
+    /// With the slopes of the third noise generator and how they are distributed, see
+    /// [`NoiseTable::of_rows`]; without them that generator is durer's own. `None` if these make no table.
+    pub fn with_rows(self, slopes: &[[f64; 3]], starts: [&[u16]; 2]) -> Option<Self> {
+        Some(Self { rows: NoiseTable::of_rows(slopes, starts)?, ..self })
+    }
+
+    /// The table of the third noise generator.
+    pub fn rows(&self) -> &'static NoiseTable {
+        self.rows
     }
 
     /// The scalar noise, which is the first component of the vector noise, and the other two.

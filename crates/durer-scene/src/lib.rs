@@ -61,8 +61,8 @@ pub use crate::placement::Placement;
 pub use crate::point_warp::{Around, BlackHole, PointWarp, Turbulence, Wrap};
 pub use crate::rainbow::Rainbow;
 pub use crate::ramp::{
-    CornerLook, Crackle, Fractal, FractalMap, Grain, GrainKind, Octaves, Pavement, Ramp, Ripples, Slope,
-    SlopeTo,
+    CornerLook, Crackle, Fractal, FractalMap, Grain, GrainKind, NoiseGenerator, Octaves, Pavement, Ramp,
+    Ripples, Slope, SlopeTo,
 };
 pub use crate::sampled::{SampledFunction, TextureSample, TextureSource};
 pub use crate::scene::{AssumedGamma, Background, Scene, Settings, SkySphere};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{ImageMap, ImageValue, Pattern, Placement, PointWarp, Ripples, Value};
+use crate::{ImageMap, ImageValue, NoiseGenerator, Pattern, Placement, PointWarp, Ripples, Value};
 
 /// A perturbation of a surface's normal at each point of space.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,8 +86,8 @@ pub enum Push {
     Bumps,
     /// Noise that is strong in few places.
     Dents {
-        /// Whether its strength is the noise of the first generator.
-        old: bool,
+        /// The generator of its strength.
+        generator: NoiseGenerator,
     },
     /// Octaves of noise.
     Wrinkles,
@@ -98,4 +98,7 @@ pub enum Push {
     /// A random vector along the surface, times this, for all points nearest to one of some random
     /// points.
     Facets(f64),
+    /// The difference from the normal to the nearest of some random normals. These are the directions of
+    /// random points, one in each cube of a grid; this is the width of the cubes.
+    NormalFacets(f64),
 }

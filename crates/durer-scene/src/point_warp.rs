@@ -2,7 +2,7 @@
 
 use durer_math::{Point3, Vec3};
 
-use crate::{Octaves, Placement};
+use crate::{NoiseGenerator, Octaves, Placement};
 
 /// Octaves of noise that move points, with their strength along the three axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +11,8 @@ pub struct Turbulence {
     pub amount: Vec3,
     /// The octaves.
     pub octaves: Octaves,
-    /// Whether the noise is the first generator's.
-    pub old: bool,
+    /// The generator of the noise.
+    pub generator: NoiseGenerator,
 }
 
 /// A map of the point at which a pattern is evaluated.

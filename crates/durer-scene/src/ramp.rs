@@ -82,13 +82,36 @@ impl Ramp {
     pub const TILINGS: core::ops::RangeInclusive<u8> = 1..=27;
 }
 
+/// A noise generator of the scene language. All have the same vector noise.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum NoiseGenerator {
+    /// `n + 1/2`, clamped to `[0, 1]`, for the noise `n` around zero.
+    First,
+    /// `(n + 1.05242) 0.48985582`, clamped to `[0, 1]`.
+    #[default]
+    Second,
+    /// `0.4925 + 0.795 g`, clamped to `[0, 1]`, for the gradient noise `g`.
+    Third,
+}
+
+impl NoiseGenerator {
+    /// The generator with this number, without its fraction: the first one for unknown numbers.
+    pub fn numbered(number: f64) -> Self {
+        match number.trunc() {
+            2.0 => Self::Second,
+            3.0 => Self::Third,
+            _ => Self::First,
+        }
+    }
+}
+
 /// A pattern made of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
     /// The kind of the pattern.
     pub kind: GrainKind,
-    /// Whether it uses the first noise generator, which has a narrower range.
-    pub old: bool,
+    /// The generator of the noise.
+    pub generator: NoiseGenerator,
 }
 
 /// The kinds of patterns made of noise.
@@ -139,8 +162,8 @@ pub struct Crackle {
     pub offset: f64,
     /// Whether the number is constant over all points with the same nearest point.
     pub solid: bool,
-    /// Whether that number has the range of the first noise generator.
-    pub old: bool,
+    /// The noise generator of that number.
+    pub generator: NoiseGenerator,
 }
 
 /// The angle of a surface's normal to a direction, mixed with a height.

@@ -20,7 +20,7 @@
 //! `180 u` along its own axis. With the effect of the coordinates' errors these are below
 //! `VALUE_ROUNDINGS` and `SLOPE_ROUNDINGS`.
 //!
-//! **Tables.** A [`NoiseTable`] has another hash and other values and slopes `T`, of at most
+//! **Tables.** A [`NoiseTable`] has another hash and other values and slopes, of at most
 //! `|v| <= size/2` and `|g| <= size`; the bounds are proportional to that size. In f32 the
 //! coefficients of a corner are rounded, too: `4 u` in its sum, which adds `4 u` to a value,
 //! `2 * 4 u * 3/2 = 12 u` and the slope's own `u` to a derivative. That is within the two bounds.
@@ -30,8 +30,6 @@ mod cell_numbers;
 mod nearest;
 pub mod permutation;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use cell_numbers::CellNumbers;
 pub use nearest::Nearest;
@@ -40,6 +38,11 @@ pub use table::NoiseTable;
 use crate::I8;
 use durer_math::real::{Eight, Real, real};
 use durer_math::{F8, Isa};
+use table::{TableLattice, TablePoints};
+
+/// How far the third noise generator of the scene language shifts points along each axis before it
+/// takes the noise of a table of rows. Measured from POV-Ray 3.7.
+pub const ROWS_SHIFT: f64 = 12_432_434.0 / 536_870_912.0;
 
 /// Bound on the rounding errors of a value, in roundings of 1.
 const VALUE_ROUNDINGS: f32 = 80.0;
@@ -328,40 +331,48 @@ impl Sum<f64> {
     }
 }
 
+/// The value of an expression with the lattice of a table, or durer's own.
+macro_rules! with_lattice {
+    ($table:expr, $lattice:ident => $value:expr) => {
+        match $table.map(|table| (table.points(), table.size())) {
+            None => {
+                let $lattice = Own;
+                $value
+            }
+            Some((TablePoints::Hashed(points), size)) => {
+                let $lattice = TableLattice(&**points, size);
+                $value
+            }
+            Some((TablePoints::Rows(points), size)) => {
+                let $lattice = TableLattice(&**points, size);
+                $value
+            }
+        }
+    };
+}
+
 /// The noise of eight points, rounded: about zero, from -1 to 1. It is durer's own without a table.
 #[inline(always)]
 pub fn values(table: Option<&NoiseTable>, p: [&F8; 3]) -> F8 {
-    match table {
-        None => values_of(Own, p),
-        Some(table) => values_of(table, p),
-    }
+    with_lattice!(table, lattice => values_of(lattice, p))
 }
 
 /// The noise of eight points and its derivatives, rounded.
 #[inline(always)]
 pub(crate) fn slants(table: Option<&NoiseTable>, p: [&F8; 3]) -> (F8, [F8; 3]) {
-    match table {
-        None => slants_of(Own, p),
-        Some(table) => slants_of(table, p),
-    }
+    with_lattice!(table, lattice => slants_of(lattice, p))
 }
 
 /// Bounds of noise on eight boxes.
 #[inline(always)]
 pub(crate) fn bounds(table: Option<&NoiseTable>, p: [&I8; 3]) -> I8 {
-    match table {
-        None => bounds_of(Own, p),
-        Some(table) => bounds_of(table, p),
-    }
+    with_lattice!(table, lattice => bounds_of(lattice, p))
 }
 
 /// Bounds on noise and its derivatives on eight boxes.
 #[inline(always)]
 pub(crate) fn slopes(table: Option<&NoiseTable>, p: [&I8; 3]) -> (I8, [I8; 3]) {
-    match table {
-        None => slopes_of(Own, p),
-        Some(table) => slopes_of(table, p),
-    }
+    with_lattice!(table, lattice => slopes_of(lattice, p))
 }
 
 #[inline(never)]
@@ -398,3 +409,6 @@ fn slopes_of<L: Lattice>(lattice: L, p: [&I8; 3]) -> (I8, [I8; 3]) {
         || bounds::bounds_in_cell(lattice, p),
     )
 }
+
+#[cfg(test)]
+mod tests;

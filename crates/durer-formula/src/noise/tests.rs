@@ -20,8 +20,33 @@ fn numbers() -> ([[f64; 4]; 256], [u16; 4096]) {
     (points, core::array::from_fn(|i| (i * 1237 + 411) as u16 % 4096))
 }
 
+/// A table of rows with slopes up to 1.3.
+fn rows() -> &'static NoiseTable {
+    let (slopes, [a, b]) = row_numbers();
+    NoiseTable::of_rows(&slopes, [&a, &b]).unwrap()
+}
+
+fn row_numbers() -> (Vec<[f64; 3]>, [Vec<u16>; 2]) {
+    let mut dice = TestRng::new(78);
+    let mut random = || (dice.unit() * 2.0 - 1.0) * 1.3;
+    let slopes = (0..2048).map(|_| [random(), random(), random()]).collect();
+    (slopes, [1237, 411].map(|factor| (0..2048).map(|i| (i * factor + 5) % 2048).map(|k| k as u16).collect()))
+}
+
+/// One of the lattices: durer's own, a table's, and that of a table of rows.
+fn lattice(i: u64) -> Option<&'static NoiseTable> {
+    [None, Some(table()), Some(rows())][(i % 3) as usize]
+}
+
 /// The value and the slopes of a point of the lattice.
 fn point(table: Option<&NoiseTable>, p: [f64; 3]) -> [Dyadic; 4] {
+    if table == Some(rows()) {
+        let (slopes, [a, b]) = row_numbers();
+        let [x, y, z] = p.map(|x| x.rem_euclid(2048.0) as usize);
+        let number = (z + usize::from(b[(y + usize::from(a[x])) % 2048])) % 2048;
+        let [gx, gy, gz] = slopes[number];
+        return [0.0, gx, gy, gz].map(Dyadic::exact);
+    }
     if table.is_some() {
         let (points, order) = numbers();
         let [x, y, z] = p.map(|x| (x + 10_000.0).rem_euclid(4096.0) as usize);
@@ -93,7 +118,7 @@ fn is_within(x: &Dyadic, lo: f64, hi: f64) -> bool {
 fn rounded_values_and_slopes_are_as_near_as_is_said() {
     let mut dice = TestRng::new(1);
     for i in 0..40_000 {
-        let table = (i % 2 == 0).then(table);
+        let table = lattice(i);
         let p = [dice.number(), dice.number(), dice.number()];
         let (v, d) = slants(table, F8::splats(p).each_ref());
         let told = [v, d[0], d[1], d[2]];
@@ -109,7 +134,7 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
 }
 
 fn size(table: Option<&NoiseTable>) -> f64 {
-    table.map_or(1.0, Lattice::size)
+    table.map_or(1.0, NoiseTable::size)
 }
 
 /// Noise at eight equal points, of a cell and in it.
@@ -126,13 +151,10 @@ fn single_precision_is_as_near_as_is_said() {
     let mut dice = TestRng::new(5);
     let mut worst = [0.0_f64; 2];
     for i in 0..40_000 {
-        let table = (i % 2 == 0).then(table);
+        let table = lattice(i);
         let whole = [0, 1, 2].map(|_| (dice.bits() % 2) as f64 - 1.0);
         let t = [0, 1, 2].map(|_| (dice.unit() * [1.0, 1.0, 1e-9][(dice.bits() % 3) as usize]) as f32);
-        let Sum { v, d } = match table {
-            None => single(Own, whole, t),
-            Some(table) => single(table, whole, t),
-        };
+        let Sum { v, d } = with_lattice!(table, lattice => single(lattice, whole, t));
         // Sums with an integer are exact in f64 but for some small ones below zero, which then do
         // not count in f32.
         let exact = exact(table, [0, 1, 2].map(|i| whole[i] + f64::from(t[i])));
@@ -170,7 +192,7 @@ fn pictures_of_noise_stay_what_they_are() {
 fn bounds_hold_exact_values_and_rounded_ones() {
     let mut dice = TestRng::new(2);
     for i in 0..6_000 {
-        let table = (i % 2 == 0).then(table);
+        let table = lattice(i);
         let any_size =
             |dice: &mut TestRng| [0.0, 1e-12, 1e-4, 1e-3, 0.05, 0.3, 1.0, 3.0][(dice.bits() % 8) as usize];
         let (is_mixed, mut size) = (dice.bits().is_multiple_of(2), any_size(&mut dice));
@@ -245,7 +267,7 @@ fn constants_bound_the_derivatives_whatever_the_corners_have() {
 fn values_and_slopes_go_on_from_cell_to_cell() {
     let mut dice = TestRng::new(3);
     for i in 0..10_000 {
-        let table = (i % 2 == 0).then(table);
+        let table = lattice(i);
         let mut p = [dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0, dice.unit() * 40.0 - 20.0];
         let axis = (dice.bits() % 3) as usize;
         p[axis] = p[axis].round();

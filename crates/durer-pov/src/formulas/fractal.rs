@@ -15,7 +15,9 @@
 //! The formulas are expanded with the greatest number of octaves allowed. Calls that state their
 //! number drop the others.
 
+use crate::noise_pattern;
 use durer_formula::Function;
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
 
 /// The number of the function that is plain noise.
@@ -23,9 +25,18 @@ pub(crate) const PLAIN: f64 = 76.0;
 /// The greatest number of octaves of a function.
 pub(super) const MOST_OCTAVES: u32 = 20;
 
-/// By generator: first for all numbers but 2 and 3, then for 2.
+/// By generator, P0: the first for all numbers but those from 2 to 4. P1 is the noise of the third.
 const NOISE: &str = "n = noise(x, y, z); old = max(min(n + 0.5, 1), 0); new = max(min((n + 1.05242)*0.48985582, 1), 0); \
-                     select(P0 - 2, old, new, select(P0 - 3, new, old, old))";
+                     select(P0 - 2, old, new, select(P0 - 3, new, P1, select(P0 - 4, P1, old, old)))";
+
+/// The noise of a point by generator, with this table for the third.
+fn noise(rows: &'static NoiseTable) -> Option<Formula> {
+    let (mut b, third) = (Builder::new(), noise_pattern::third(rows)?);
+    let [x, y, z, generator] = [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?, b.input(3).ok()?];
+    let third = b.call(&third, &[x, y, z]).ok()?;
+    let root = b.call(&super::on_paper(NOISE, 2)?, &[x, y, z, generator, third]).ok()?;
+    Some(b.finish(root, 4))
+}
 
 /// A formula under construction, with the inputs `x`, `y`, `z` and six parameters, of which the
 /// last is the noise generator.
@@ -37,8 +48,8 @@ struct Draft {
 type Step = Result<NodeId, FormulaError>;
 
 impl Draft {
-    fn new() -> Option<Self> {
-        Some(Self { builder: Builder::new(), noise: super::on_paper(NOISE, 1)? })
+    fn new(rows: &'static NoiseTable) -> Option<Self> {
+        Some(Self { builder: Builder::new(), noise: noise(rows)? })
     }
 
     fn p(&mut self, number: u32) -> Step {
@@ -175,10 +186,11 @@ impl Draft {
     }
 }
 
-/// The formula of a function by its number; `None` if it is not made of noise.
-pub(super) fn internal(number: f64, generator: f64) -> Option<Formula> {
+/// The formula of a function by its number, with this table for the third generator; `None` if it is
+/// not made of noise.
+pub(super) fn internal(number: f64, generator: f64, rows: &'static NoiseTable) -> Option<Formula> {
     let made = |write: fn(&mut Draft) -> Step| {
-        let mut draft = Draft::new()?;
+        let mut draft = Draft::new(rows)?;
         let root = write(&mut draft).ok()?;
         Some(draft.builder.finish(root, 9))
     };
@@ -187,10 +199,10 @@ pub(super) fn internal(number: f64, generator: f64) -> Option<Formula> {
             let mut b = Builder::new();
             let arguments =
                 [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?, b.constant(generator).ok()?];
-            let root = b.call(&super::on_paper(NOISE, 1)?, &arguments).ok()?;
+            let root = b.call(&noise(rows)?, &arguments).ok()?;
             Some(b.finish(root, 3))
         }
-        78.0 => super::on_paper(NOISE, 1),
+        78.0 => noise(rows),
         29.0 => made(Draft::hetero_multifractal),
         58.0 => made(Draft::ridge),
         59.0 => made(Draft::ridged_multifractal),
@@ -218,9 +230,6 @@ pub(super) fn check(number: u32, arguments: &[Option<f64>]) -> Result<(), String
             ));
         }
     }
-    let generator = known(arguments.len() - 1, "a noise generator")?;
-    if generator.trunc() == 3.0 {
-        return Err(String::from("not supported yet: noise generator 3; only 1 and 2 are supported"));
-    }
+    known(arguments.len() - 1, "a noise generator")?;
     Ok(())
 }

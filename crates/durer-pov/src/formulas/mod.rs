@@ -9,6 +9,7 @@ mod fractal;
 mod pen;
 pub(crate) mod pieces;
 
+use durer_formula::noise::NoiseTable;
 use durer_formula::{Formula, Op};
 use pen::Pen;
 
@@ -301,12 +302,14 @@ pub(crate) fn check(function: Noisy, arguments: &[Option<f64>]) -> Result<(), St
     fractal::check(function, arguments)
 }
 
-/// The formula of `internal(number)`. `generator` is for noise functions that do not state one.
-pub(crate) fn internal(number: f64, generator: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
-    if number == PLAIN_NOISE && generator.trunc() == 3.0 {
-        return Err(Lacking::NotYet("noise generator 3; only 1 and 2 are supported"));
-    }
-    if let Some(formula) = fractal::internal(number, generator) {
+/// The formula of `internal(number)`. `generator` is for noise functions that do not state one, `rows`
+/// the table of the third generator.
+pub(crate) fn internal(
+    number: f64,
+    generator: f64,
+    rows: &'static NoiseTable,
+) -> Result<(Formula, Option<Noisy>), Lacking> {
+    if let Some(formula) = fractal::internal(number, generator, rows) {
         let noisy = (number != PLAIN_NOISE).then_some(number as Noisy);
         return Ok((formula, noisy));
     }
@@ -352,17 +355,21 @@ mod tests {
         }
     }
 
+    fn numbered(number: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
+        internal(number, 2.0, NoiseTable::own_rows())
+    }
+
     #[test]
     fn unknown_numbers_are_told_apart() {
-        assert!(matches!(internal(9.0, 2.0), Err(Lacking::NotYet(why)) if why.contains("has no formula")));
-        assert_eq!(internal(79.0, 2.0), Err(Lacking::Unknown));
-        assert_eq!(internal(1.5, 2.0), Err(Lacking::Unknown));
+        assert!(matches!(numbered(9.0), Err(Lacking::NotYet(why)) if why.contains("has no formula")));
+        assert_eq!(numbered(79.0), Err(Lacking::Unknown));
+        assert_eq!(numbered(1.5), Err(Lacking::Unknown));
     }
 
     #[test]
     fn functions_of_noise_have_their_parameters() {
         for (number, inputs) in [(76.0, 3), (78.0, 4), (29.0, 9), (58.0, 9), (59.0, 9)] {
-            let (formula, noisy) = internal(number, 2.0).unwrap();
+            let (formula, noisy) = numbered(number).unwrap();
             assert_eq!((formula.inputs(), noisy.is_some()), (inputs, number != 76.0));
             let value = formula.value(&[0.3, 0.2, 0.4, 0.5, 2.0, 3.0, 0.6, 0.4, 2.0][..inputs as usize]);
             assert!(value.is_finite(), "{number}");

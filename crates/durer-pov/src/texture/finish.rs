@@ -1,5 +1,7 @@
 //! Finishes: how a surface reflects and scatters light.
 
+use durer_scene::NoiseGenerator;
+
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Result};
 use crate::keywords::Keyword;
@@ -32,8 +34,8 @@ pub(crate) struct Film {
     pub(crate) amount: f64,
     pub(crate) thickness: f64,
     pub(crate) turbulence: f64,
-    /// Whether the turbulence uses the first noise generator.
-    pub(crate) old: bool,
+    /// The noise generator of the turbulence.
+    pub(crate) generator: NoiseGenerator,
 }
 
 /// How a surface reflects and scatters light.
@@ -170,7 +172,7 @@ impl Parser<'_> {
         self.expect(Mark::BraceOpen)?;
         let mut film = irid.unwrap_or_default();
         film.amount = self.float()?;
-        film.old = self.language.noise_generator() == 1.0;
+        film.generator = NoiseGenerator::numbered(self.language.noise_generator());
         loop {
             let lexeme = self.next()?;
             match &lexeme.item {

@@ -35,6 +35,8 @@ pub(crate) enum NormalKind {
     Pattern(PatternKind),
     /// Facets, tilted by this much.
     Facets(f64),
+    /// Facets of curved surfaces: normals take the nearest of a grid of directions with this width.
+    NormalFacets(f64),
 }
 
 /// The default amount of a normal.
@@ -216,17 +218,21 @@ impl Parser<'_> {
                 let is_mean = normal.pattern() == Some(&PatternKind::Average);
                 normal.normals = Some(self.nested(|r| r.normal_map_block(is_mean))?);
             }
-            (Keyword::Coords, Some(NormalKind::Facets(size))) => {
+            (
+                Keyword::Coords | Keyword::Size,
+                Some(kind @ (NormalKind::Facets(_) | NormalKind::NormalFacets(_))),
+            ) => {
                 self.next()?;
                 let given = self.float()?;
+                let is_size = word == Keyword::Size;
                 if given <= 0.0 {
-                    let text = format!("coords of facets must be positive, not {given}");
-                    return Err(Error::invalid(place, text));
+                    let name = if is_size { "size" } else { "coords" };
+                    return Err(Error::invalid(
+                        place,
+                        format!("{name} of facets must be positive, not {given}"),
+                    ));
                 }
-                *size = given;
-            }
-            (Keyword::Size, Some(NormalKind::Facets(_))) => {
-                return Err(Error::unsupported(place, "size of facets (only coords is supported)"));
+                *kind = if is_size { NormalKind::NormalFacets(given) } else { NormalKind::Facets(given) };
             }
             (_, kind) => {
                 let kind = match kind {

@@ -115,7 +115,7 @@ impl Finish {
             stirred: f.irid.filter(|irid| irid.turbulence != 0.0).map(|irid| {
                 let octaves = Octaves { count: FILM_OCTAVES, lambda: 2.0, omega: 0.5 };
                 let amount = Vec3::new(1.0, 1.0, 1.0);
-                Box::new(Stir::new(&Turbulence { amount, octaves, old: irid.old }))
+                Box::new(Stir::new(&Turbulence { amount, octaves, generator: irid.generator }))
             }),
             is_lit: diffuse != 0.0 || diffuse_back != 0.0 || phong != 0.0 || specular != 0.0,
         }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use durer_formula::noise;
+use durer_formula::noise::{self, NoiseTable};
 use durer_math::{F8, Point3, Vec3};
 use durer_scene::LearnedNoise;
 
@@ -51,6 +51,16 @@ impl Grains {
             Self::Own => noise::values(None, [&p.x, &p.y, &p.z]),
             Self::Learned(learned) => learned.component(0, [&p.x, &p.y, &p.z]),
         }
+    }
+
+    /// The gradient noise at some points, about zero.
+    pub(crate) fn gradient_noise(&self, p: Vec3<F8>) -> F8 {
+        let rows = match self {
+            Self::Own => NoiseTable::own_rows(),
+            Self::Learned(learned) => learned.rows(),
+        };
+        let [x, y, z] = [p.x, p.y, p.z].map(|x| x + F8::splat(noise::ROWS_SHIFT));
+        noise::values(Some(rows), [&x, &y, &z])
     }
 
     /// A component of the vector noise at some points.

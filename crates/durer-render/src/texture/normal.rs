@@ -5,8 +5,10 @@
 //! ```text
 //!   n - 2/15 a grad h      for a landscape with heights h and the factor a,
 //!   n + a v                for a vector v,
-//!   n - a (dx, dy, 0)      for the differences of a picture's values to the right and up,
+//!   n - a (dx e + dy e x n)  for the differences of a picture's values to the right and up,
 //! ```
+//!
+//! where `e` is the unit vector along `(-n_z, 0, n_x)`, or `x` if that is zero,
 //!
 //! and is then scaled to length 1. The gradient is estimated from the heights at the four corners of
 //! a regular tetrahedron around the point.
@@ -140,7 +142,11 @@ impl RenderNormal {
         let moved = match &self.body {
             Body::Height(landscape) => own - landscape.gradient(p, around) * (DEPTH * landscape.amount),
             Body::Push(pusher, amount) => own + pusher.vector(p, own) * *amount,
-            Body::Picture(picture, value, amount) => own - picture.differences(p, *value) * *amount,
+            Body::Picture(picture, value, amount) => {
+                let [dx, dy] = picture.differences(p, *value);
+                let (right, up) = sides(unit(own));
+                own - (right * dx + up * dy) * *amount
+            }
             Body::Normals(blend) => match blend.at(p, around) {
                 Some(Shown::One(i)) => blend.entry(i).bent(p, own, around),
                 Some(Shown::Two(i, k)) => {
@@ -196,6 +202,14 @@ impl Landscape {
     }
 }
 
+/// The directions to the right and upward of a picture's bumps on a surface with the unit normal `n`
+/// (a fact of the scene language).
+fn sides(n: Vec3) -> (Vec3, Vec3) {
+    let level = Vec3::new(-n.z, 0.0, n.x);
+    let right = if level == Vec3::ZERO { Vec3::X } else { unit(level) };
+    (right, right.cross(n))
+}
+
 fn times(m: &Matrix3, v: Vec3) -> Vec3 {
     let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
     Vec3::new(row(&m[0]), row(&m[1]), row(&m[2]))
@@ -203,4 +217,29 @@ fn times(m: &Matrix3, v: Vec3) -> Vec3 {
 
 fn transposed(m: &Matrix3) -> Matrix3 {
     core::array::from_fn(|i| core::array::from_fn(|j| m[j][i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shifts of normals by a picture in POV-Ray: a ramp to the right and one upward on a sphere, and on
+    /// planes; each divided by the ramp's slope.
+    #[test]
+    fn sides_of_bumps_are_those_of_the_scene_language() {
+        for (n, right, up) in [
+            ([0.405, 0.395, -0.825], [0.8976, 0.0, 0.4409], [-0.1742, 0.9186, 0.3544]),
+            ([-0.395, -0.405, -0.825], [0.9018, 0.0, -0.4320], [-0.1749, 0.9144, -0.3653]),
+            ([0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
+            ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            ([0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
+        ] {
+            let [x, y, z] = n;
+            let found = sides(unit(Vec3::new(x, y, z)));
+            for (found, seen) in [(found.0, right), (found.1, up)] {
+                assert!((0..3).all(|i| (found[i] - seen[i]).abs() < 2e-3), "{n:?}: {found:?} {seen:?}");
+            }
+        }
+    }
 }

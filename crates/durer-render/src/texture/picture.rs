@@ -86,18 +86,37 @@ impl Picture {
             let (column, row) = self.pixel(floor(x), floor(y));
             return image.colour(column, row);
         }
-        let (x, y) = (x - 0.5, y - 0.5);
         let mut terms = [0.0; 5];
+        self.each_near(x, y, |column, row, weight| {
+            let Colour { rgb, filter, transmit } = image.colour(column, row);
+            let own = [rgb.r, rgb.g, rgb.b, filter, transmit];
+            for (sum, own) in terms.iter_mut().zip(own) {
+                *sum += own * weight;
+            }
+        });
+        Colour::from_terms(terms)
+    }
+
+    /// The index in the palette `x` and `y` pixels from the lower left corner: between pixels the whole
+    /// part of the mixed indices (a fact of the scene language).
+    fn index_at(&self, x: f64, y: f64) -> f64 {
+        let mut index = 0.0;
+        self.each_near(x, y, |column, row, weight| index += self.0.image.index(column, row) as f64 * weight);
+        index.trunc()
+    }
+
+    /// Passes the columns and rows of the pixels around a point to `visit`, with their weights.
+    fn each_near(&self, x: f64, y: f64, mut visit: impl FnMut(usize, usize, f64)) {
         let mut add = |x: f64, y: f64, weight: f64| {
             if weight != 0.0 {
                 let (column, row) = self.pixel(x, y);
-                let Colour { rgb, filter, transmit } = image.colour(column, row);
-                let own = [rgb.r, rgb.g, rgb.b, filter, transmit];
-                for (sum, own) in terms.iter_mut().zip(own) {
-                    *sum += own * weight;
-                }
+                visit(column, row, weight);
             }
         };
+        if self.0.between == Between::Nearest {
+            return add(floor(x), floor(y), 1.0);
+        }
+        let (x, y) = (x - 0.5, y - 0.5);
         if self.0.between == Between::Distance {
             let (left, low) = (floor(x), floor(y));
             let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
@@ -123,7 +142,6 @@ impl Picture {
                 }
             }
         }
-        Colour::from_terms(terms)
     }
 
     /// The index of the pixel at a point; 0 outside a picture that is not repeated.
@@ -135,22 +153,19 @@ impl Picture {
     }
 
     /// The differences of the value to the right and upward: those of the plane through the values
-    /// at three places, the point and one pixel down to the left and to the right of it (a fact of
-    /// the scene language).
-    pub(super) fn differences(&self, p: Point3, value: ImageValue) -> Vec3 {
-        let Some((u, v)) = self.place(p) else { return Vec3::ZERO };
+    /// at three places, the point and one pixel down to the left and to the right of it. Of a picture
+    /// with a palette the value may be the index itself. (Facts of the scene language.)
+    pub(super) fn differences(&self, p: Point3, value: ImageValue) -> [f64; 2] {
+        let Some((u, v)) = self.place(p) else { return [0.0; 2] };
         let (columns, rows) = self.size();
         let (x, y) = (u * columns, v * rows);
         let at = |x: f64, y: f64| match value {
-            ImageValue::Grey => self.colour_at(x, y).rgb.luminance(),
+            ImageValue::Index if self.0.image.has_palette() => self.index_at(x, y),
+            ImageValue::Index | ImageValue::Grey => self.colour_at(x, y).rgb.luminance(),
             ImageValue::Alpha => 1.0 - self.colour_at(x, y).transmit,
-            ImageValue::Index => {
-                let (column, row) = self.pixel(floor(x), floor(y));
-                self.0.image.index(column, row) as f64 / 255.0
-            }
         };
         let (here, left, right) = (at(x, y), at(x - 1.0, y - 1.0), at(x + 1.0, y - 1.0));
-        Vec3::new(0.5 * (right - left), here - 0.5 * (left + right), 0.0)
+        [0.5 * (right - left), here - 0.5 * (left + right)]
     }
 
     /// The number that the picture gives at a point; 0 outside a picture that is not repeated.
@@ -237,12 +252,31 @@ mod tests {
             let p = Point3::new((3.6 + right) / 8.0, (4.7 + up) / 8.0, 0.0);
             let d = picture.differences(p, ImageValue::Grey);
             // White has the luminance 1 but for rounding.
-            [d.x, d.y].map(|x| (x * 1024.0).round() / 1024.0)
+            d.map(|x| (x * 1024.0).round() / 1024.0)
         };
         assert_eq!(at(0.0, 0.0), [0.0, 1.0]);
         assert_eq!(at(1.0, 1.0), [-0.5, -0.5]);
         assert_eq!(at(-1.0, 1.0), [0.5, -0.5]);
         assert_eq!((at(1.0, 0.0), at(0.0, 1.0), at(1.0, -1.0)), ([0.0; 2], [0.0; 2], [0.0; 2]));
+    }
+
+    /// Values of POV-Ray, as above: the pixels 10, 200 and 50 of a row are between pixels 0.
+    #[test]
+    fn differences_of_indices_are_whole() {
+        let row = [0, 0, 10, 0, 200, 0, 50, 0];
+        let indices = (0..64).map(|i| if i / 8 == 3 { row[i % 8] } else { 0 }).collect();
+        let palette = vec![Colour::from_terms([0.0; 5]); 256];
+        let image = Arc::new(Image::from_indices(8, 8, palette, indices).unwrap());
+        let map =
+            |between| ImageMap { image: Arc::clone(&image), layout: Layout::Flat, once: false, between };
+        let up = |between, part: f64| {
+            let picture = Picture(Arc::new(map(between)));
+            let at = |i: u32| Point3::new((f64::from(i) + part) / 8.0, (4.0 + 7.0 / 16.0) / 8.0, 0.0);
+            [1, 2, 3, 4, 5, 6, 7].map(|i| picture.differences(at(i), ImageValue::Index)[1])
+        };
+        assert_eq!(up(Between::Nearest, 9.0 / 16.0), [0.0, 10.0, 0.0, 200.0, 0.0, 50.0, 0.0]);
+        assert_eq!(up(Between::Linear, 9.0 / 16.0), [0.0, 8.0, 11.0, 175.0, 2.0, 43.0, 0.0]);
+        assert_eq!(up(Between::Distance, 9.0 / 16.0), [0.0, 9.0, 1.0, 195.0, 0.0, 48.0, 0.0]);
     }
 
     #[test]

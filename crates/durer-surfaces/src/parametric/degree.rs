@@ -7,7 +7,7 @@
 
 use super::line::View;
 use super::piece::{Piece, halves};
-use super::subdivide::{Reach, slowest};
+use super::subdivide::slowest;
 use crate::degree::{self, Domain, turns};
 
 /// The most stretches of a border without a certain half plane, and how often they are halved.
@@ -91,6 +91,6 @@ impl Stretch {
 /// a turn: the combination `slow` is the second coordinate, that across it the first.
 fn eighth(view: &View<'_>, slow: [f64; 2], piece: &Piece) -> Option<i32> {
     let local = view.local(piece);
-    let sign = |by| Reach::new(by, &local, piece.half()).sign();
+    let sign = |by| view.reach(by, &local, piece).sign();
     degree::eighth((sign([slow[1], -slow[0]]), sign(slow)))
 }

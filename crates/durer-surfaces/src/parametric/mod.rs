@@ -23,9 +23,10 @@
 //! # Seams and poles
 //!
 //! The ends of the domain belong to it, and so do crossings within four units in the last place
-//! beyond: `2*pi` is rounded, and a seam must not have a gap. Crossings on the border of the domain
+//! beyond: `2*pi` is rounded, and a seam must not have a gap. Crossings on opposite sides of the domain
 //! at the same place of a ray are one crossing, that of the least parameters: so a surface that
-//! comes back to itself, perhaps turned over like a Moebius strip, is met once on its seam. At a
+//! comes back to itself, perhaps turned over like a Moebius strip, is met once on its seam. On the same
+//! side, or on sides that meet, they are one if they go in the same direction. At a
 //! pole, where `S_u x S_v` vanishes, a crossing cannot be proven and is reported as uncertain; the
 //! normal there is the limit from within the domain.
 //!

@@ -1,7 +1,7 @@
 //! Maps of rectangles as one surface: their pieces in a tree, and all crossings of a ray, each once.
 
 use super::build::{self, Refused};
-use super::crossings::{distinct, joined_across, root, united};
+use super::crossings::{Edges, distinct, joined_across, root, united};
 use super::degree::turns_around;
 use super::line::{Found, NOWHERE, View};
 use super::piece::{Face, Piece, Unit};
@@ -153,7 +153,7 @@ impl Sheet {
         let mut unproven = 0;
         if !lists.found.is_empty() {
             let found = &mut lists.found;
-            distinct(found, &self.faces, self.gap);
+            distinct(found, Edges { faces: &self.faces, unit: &self.unit, gap: self.gap });
             if found.iter().any(|found| found.sign == 0) {
                 self.add_signs(&Line::new(&at), found);
             }

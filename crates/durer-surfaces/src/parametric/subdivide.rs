@@ -4,13 +4,14 @@
 
 use super::line::{Found, View};
 use super::piece::{Domain, Piece, halves};
+use crate::patch::line::Line;
 use durer_math::U;
 use durer_math::scale::pow2;
 use durer_roots::two_unknowns::{Content, Limits, Local, ROUNDED};
 
 /// The most times that parts of a piece are cut for one ray; the rest stays unresolved. A tangent
-/// needs some dozens.
-const MOST_CUTS: usize = 1024;
+/// needs some dozens. A surface has up to a thousand pieces, and a line within it may meet them all.
+const MOST_CUTS: usize = 256;
 /// A part on which all values are within this many errors of zero is not cut further.
 const NOISE: f64 = 8.0;
 /// The least width of a part, relative to the domain's.
@@ -89,7 +90,7 @@ enum Slow {
 
 fn along_slowest(view: &View<'_>, part: &Piece) -> Slow {
     let local = view.local(part);
-    let reach = Reach::new(slowest(&local.0.j), &local, part.half());
+    let reach = view.reach(slowest(&local.0.j), &local, part);
     if reach.sign() != 0 {
         Slow::Clear
     } else if (reach.value.abs() + reach.change) * ROUNDED <= NOISE * (reach.noise + reach.rounding) {
@@ -110,19 +111,39 @@ pub(super) struct Reach {
     rounding: f64,
 }
 
-impl Reach {
-    /// On a piece with this local data and this half of its width.
-    pub(super) fn new(by: [f64; 2], (local, limits): &(Local, Limits), half: f64) -> Self {
+impl View<'_> {
+    /// The values of a combination of both functions on a piece with this local data. The combination is
+    /// one of the coordinates of the point, whose slopes it bounds: their errors cancel in it where a
+    /// line is almost in the surface, but not in the two functions.
+    pub(super) fn reach(&self, by: [f64; 2], (local, limits): &(Local, Limits), piece: &Piece) -> Reach {
+        let Line { axes, slope, slope_err, .. } = self.line;
         let sum = |x: [f64; 2]| by[0].abs() * x[0].abs() + by[1].abs() * x[1].abs();
         let value = by[0].mul_add(local.f[0], by[1] * local.f[1]);
-        let change: f64 = (0..2).map(|k| by[0].mul_add(local.j[0][k], by[1] * local.j[1][k]).abs()).sum();
+        let c = [by[0], by[1], -by[0].mul_add(slope[0], by[1] * slope[1])];
+        let c_err = (sum(*slope_err) + 2.0 * U * sum(*slope)) * ROUNDED;
         // The combination itself rounds.
-        let rounding =
-            4.0 * U * (sum(local.f) + sum([0, 1].map(|i: usize| local.j[i][0].abs() + local.j[i][1].abs())));
-        let change = half * (change + 2.0 * sum(limits.e_j)) + rounding;
-        Self { value, change, noise: sum(limits.e), rounding }
+        let mut rounding = sum(local.f);
+        let mut change = 0.0;
+        for k in 0..2 {
+            let (mut along, mut err, mut size) = (0.0_f64, 0.0_f64, 0.0_f64);
+            for i in 0..3 {
+                let (s, e) = (piece.slope[axes[i]][k], piece.slope_err[axes[i]][k]);
+                along = c[i].mul_add(s, along);
+                size += (c[i] * s).abs();
+                err += c[i].abs() * e + if i == 2 { c_err * (s.abs() + e) } else { 0.0 };
+            }
+            rounding += size;
+            change += along.abs() + err;
+        }
+        let rounding = 4.0 * U * rounding;
+        let change = piece.half() * (change + rounding) * ROUNDED + rounding;
+        // An unbounded slope has an infinite error, not NaN.
+        let change = if change.is_nan() { f64::INFINITY } else { change };
+        Reach { value, change, noise: sum(limits.e), rounding }
     }
+}
 
+impl Reach {
     /// The sign of all values, 0 if it is not certain.
     pub(super) fn sign(&self) -> i8 {
         let far = (self.change + self.noise) * ROUNDED;

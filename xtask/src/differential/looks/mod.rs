@@ -114,7 +114,7 @@ impl Maker {
             words.push(format!("number_of_waves {}", self.r.below(12) + 1));
         }
         if self.r.chance(6) {
-            words.push("noise_generator 1".into());
+            words.push(format!("noise_generator {}", self.r.choice(&["1", "3"])));
         }
         Node::text(format!("global_settings {{ {} }}", words.join(" ")))
     }

@@ -30,7 +30,7 @@ impl Maker {
                 ("average".into(), vec![map])
             }
             3 => (
-                format!("facets coords {}", self.number(0.1, 0.9)),
+                format!("facets {} {}", self.r.choice(&["coords", "size"]), self.number(0.1, 0.9)),
                 vec![Node::text(format!("scale {}", self.odd(0.3, 1.0)))],
             ),
             4..=6 => {

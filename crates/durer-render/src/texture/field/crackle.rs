@@ -1,7 +1,7 @@
 //! Patterns made of random numbers and points, one in each unit cube.
 
 use durer_math::{F8, Point3, Vec3, elementary};
-use durer_scene::{CellNumbers, Crackle};
+use durer_scene::{CellNumbers, Crackle, NoiseGenerator};
 
 use super::noise::ranged;
 use crate::texture::Grains;
@@ -21,7 +21,7 @@ pub(crate) struct Points {
     /// The distance along a fourth axis, as the metric sums it.
     fourth: f64,
     solid: bool,
-    old: bool,
+    generator: NoiseGenerator,
     /// The noise value that all points with the same nearest point share.
     grains: Grains,
 }
@@ -66,7 +66,7 @@ impl Points {
             metric,
             fourth: metric.part(crackle.offset),
             solid: crackle.solid,
-            old: crackle.old,
+            generator: crackle.generator,
             grains: Grains::current(),
         }
     }
@@ -113,14 +113,24 @@ impl Points {
 
     /// A pattern for finding only the nearest point.
     pub(super) fn of_cells() -> Self {
-        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false, old: false };
+        let crackle = Crackle {
+            form: Vec3::X,
+            metric: 2.0,
+            offset: 0.0,
+            solid: false,
+            generator: NoiseGenerator::Second,
+        };
         Self::new(&crackle)
+    }
+
+    /// The random point nearest to a point.
+    pub(super) fn nearest_point(&self, p: Point3) -> Point3 {
+        Point3::from(self.nearest(p).1)
     }
 
     /// The noise vector of the random point nearest to a point.
     pub(super) fn vector(&self, p: Point3) -> Vec3 {
-        let (_, [x, y, z]) = self.nearest(p);
-        self.grains.vector(Point3::new(x, y, z))
+        self.grains.vector(self.nearest_point(p))
     }
 
     /// The value at a point.
@@ -128,7 +138,7 @@ impl Points {
         let (nearest, point) = self.nearest(p);
         if self.solid {
             let [x, y, z] = point.map(F8::splat);
-            return ranged(&self.grains, Vec3 { x, y, z }, self.old).0[0];
+            return ranged(&self.grains, Vec3 { x, y, z }, self.generator).0[0];
         }
         let [first, second, third] = nearest.map(|sum| self.metric.distance(sum + self.fourth));
         let third = if self.form.z == 0.0 { 0.0 } else { self.form.z * third };
@@ -176,7 +186,13 @@ mod tests {
     fn values_are_sums_of_the_distances_of_functions() {
         for (metric, offset) in [(2.0, 0.0), (2.0, 0.3), (1.0, 0.2), (3.5, 0.0)] {
             for form in [Vec3::new(-1.0, 1.0, 0.0), Vec3::X, Vec3::new(-0.4, -0.2, 0.6)] {
-                let points = Points::new(&Crackle { form, metric, offset, solid: false, old: false });
+                let points = Points::new(&Crackle {
+                    form,
+                    metric,
+                    offset,
+                    solid: false,
+                    generator: NoiseGenerator::Second,
+                });
                 for k in 0..300 {
                     let k = f64::from(k);
                     let p = Point3::new(k * 0.377 - 20.0, k * 0.611 - 40.0, 7.0 - k * 0.239);
@@ -191,19 +207,29 @@ mod tests {
 
     #[test]
     fn solid_cells_have_the_range_of_their_noise_generator() {
-        let points =
-            |old| Points::new(&Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: true, old });
+        let points = |generator| {
+            Points::new(&Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: true, generator })
+        };
         for k in 0..100 {
             let k = f64::from(k);
             let p = Point3::new(k * 0.377 - 20.0, k * 0.611 - 40.0, 7.0 - k * 0.239);
-            let noise = points(false).value(p) / 0.489_855_82 - 1.052_42;
-            assert!((points(true).value(p) - (noise + 0.5).clamp(0.0, 1.0)).abs() < 1e-12, "{p:?}");
+            let noise = points(NoiseGenerator::Second).value(p) / 0.489_855_82 - 1.052_42;
+            assert!(
+                (points(NoiseGenerator::First).value(p) - (noise + 0.5).clamp(0.0, 1.0)).abs() < 1e-12,
+                "{p:?}"
+            );
         }
     }
 
     #[test]
     fn means_are_near_those_of_the_scene_language() {
-        let crackle = |form: Vec3| Crackle { form, metric: 2.0, offset: 0.0, solid: false, old: false };
+        let crackle = |form: Vec3| Crackle {
+            form,
+            metric: 2.0,
+            offset: 0.0,
+            solid: false,
+            generator: NoiseGenerator::Second,
+        };
         for (form, want) in [(Vec3::new(-1.0, 1.0, 0.0), 0.196), (Vec3::X, 0.519), (Vec3::Y, 0.714)] {
             let points = Points::new(&crackle(form));
             let at = |k: i32| {

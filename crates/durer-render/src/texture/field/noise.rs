@@ -12,7 +12,7 @@
 //! ```
 //!
 //! `n` is the underlying noise, around zero; `n'` and `n''` are `n` at shifted points. `N` is the
-//! noise of a generator, from 0 to 1. For the first generator `m` is `N`, for the second `2 N - 1/2`,
+//! noise of a generator, from 0 to 1. For the first generator `m` is `N`, for the others `2 N - 1/2`,
 //! clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the turbulence. Functions
 //! of the scene language use the same formulas.
 
@@ -20,19 +20,22 @@ use crate::texture::Grains;
 use crate::vector::floor;
 use core::f64::consts::TAU;
 use durer_math::{F8, M8, Point3, Vec3, elementary};
-use durer_scene::{Grain, GrainKind, Turbulence};
+use durer_scene::{Grain, GrainKind, NoiseGenerator, Turbulence};
 
 /// `N`.
-pub(super) fn ranged(grains: &Grains, p: Vec3<F8>, old: bool) -> F8 {
-    let n = grains.values(p);
-    let n = if old { n + F8::splat(0.5) } else { (n + F8::splat(1.05242)) * 0.489_855_82 };
+pub(super) fn ranged(grains: &Grains, p: Vec3<F8>, generator: NoiseGenerator) -> F8 {
+    let n = match generator {
+        NoiseGenerator::First => grains.values(p) + F8::splat(0.5),
+        NoiseGenerator::Second => (grains.values(p) + F8::splat(1.05242)) * 0.489_855_82,
+        NoiseGenerator::Third => grains.gradient_noise(p) * 0.795 + F8::splat(0.4925),
+    };
     n.max(F8::ZERO).min(F8::ONE)
 }
 
 /// `m`; without the clamp if `clamped` is false.
-fn grain(grains: &Grains, p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
-    let n = ranged(grains, p, old);
-    if old {
+fn grain(grains: &Grains, p: Vec3<F8>, generator: NoiseGenerator, clamped: bool) -> F8 {
+    let n = ranged(grains, p, generator);
+    if generator == NoiseGenerator::First {
         return n;
     }
     let m = n * 2.0 - F8::splat(0.5);
@@ -41,17 +44,17 @@ fn grain(grains: &Grains, p: Vec3<F8>, old: bool, clamped: bool) -> F8 {
 
 /// The values of a pattern at some points.
 pub(super) fn values(field: &Grain, grains: &Grains, p: Point3<F8>) -> F8 {
-    let (p, old) = (p.to_vec(), field.old);
+    let (p, generator) = (p.to_vec(), field.generator);
     match field.kind {
-        GrainKind::Bozo | GrainKind::Agate(..) => ranged(grains, p, old),
+        GrainKind::Bozo | GrainKind::Agate(..) => ranged(grains, p, generator),
         GrainKind::Dents => {
-            let n = ranged(grains, p, old);
+            let n = ranged(grains, p, generator);
             n * n * n
         }
         GrainKind::Wrinkles => {
             let (mut sum, mut weight, mut scale) = (F8::ZERO, 0.5, 1.0);
             for _ in 0..10 {
-                sum += grain(grains, p * F8::splat(scale), old, true) * weight;
+                sum += grain(grains, p * F8::splat(scale), generator, true) * weight;
                 (weight, scale) = (weight * 0.5, scale * 2.0);
             }
             sum
@@ -59,7 +62,7 @@ pub(super) fn values(field: &Grain, grains: &Grains, p: Point3<F8>) -> F8 {
         GrainKind::Granite => {
             let (mut sum, mut weight, mut scale) = (F8::ZERO, 1.0, 4.0);
             for _ in 0..6 {
-                sum += (F8::splat(0.5) - grain(grains, p * F8::splat(scale), old, true)).abs() * weight;
+                sum += (F8::splat(0.5) - grain(grains, p * F8::splat(scale), generator, true)).abs() * weight;
                 (weight, scale) = (weight * 0.5, scale * 2.0);
             }
             sum
@@ -73,7 +76,7 @@ pub(crate) struct Stir {
     pub(crate) amount: Vec3,
     /// The weight and the scale of each octave.
     octaves: Box<[(f64, f64)]>,
-    old: bool,
+    generator: NoiseGenerator,
     grains: Grains,
 }
 
@@ -86,7 +89,7 @@ impl Stir {
         Self {
             amount: turbulence.amount,
             octaves: (0..turbulence.octaves.count).map(octave).collect(),
-            old: turbulence.old,
+            generator: turbulence.generator,
             grains: Grains::current(),
         }
     }
@@ -95,7 +98,7 @@ impl Stir {
     pub(crate) fn scalar(&self, p: Point3<F8>) -> F8 {
         let mut sum = F8::ZERO;
         for (k, &(weight, scale)) in self.octaves.iter().enumerate() {
-            sum += grain(&self.grains, p.to_vec() * F8::splat(scale), self.old, k == 0) * weight;
+            sum += grain(&self.grains, p.to_vec() * F8::splat(scale), self.generator, k == 0) * weight;
         }
         sum
     }

@@ -1,23 +1,25 @@
 //! Vectors that are added to normals.
 
-use durer_math::{Point3, Vec3};
-use durer_scene::Push;
+use durer_math::{F8, Point3, Vec3};
+use durer_scene::{NoiseGenerator, Push};
 
 use super::crackle::Points;
+use super::noise::ranged;
 use super::ripples::Centres;
 use crate::texture::Grains;
-use crate::vector::{dot, floor};
+use crate::vector::{dot, floor, unit};
 
 /// A [`Push`] with its constants precomputed.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::texture) enum Pusher {
     Bumps(Grains),
-    /// Noise, and whether its strength is the first generator's.
-    Dents(Grains, bool),
+    /// Noise, and the generator of its strength.
+    Dents(Grains, NoiseGenerator),
     Wrinkles(Grains),
     Ripples(Box<Centres>),
     Quilted(f64, f64),
     Facets(f64, Points),
+    NormalFacets(f64, Points),
 }
 
 /// The number of octaves of wrinkles.
@@ -33,11 +35,12 @@ impl Pusher {
     pub(in crate::texture) fn new(push: &Push) -> Self {
         match push {
             Push::Bumps => Self::Bumps(Grains::current()),
-            &Push::Dents { old } => Self::Dents(Grains::current(), old),
+            &Push::Dents { generator } => Self::Dents(Grains::current(), generator),
             Push::Wrinkles => Self::Wrinkles(Grains::current()),
             Push::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
             &Push::Quilted(bottom, top) => Self::Quilted(bottom, top),
             &Push::Facets(amount) => Self::Facets(amount, Points::of_cells()),
+            &Push::NormalFacets(width) => Self::NormalFacets(width, Points::of_cells()),
         }
     }
 
@@ -45,11 +48,9 @@ impl Pusher {
     pub(in crate::texture) fn vector(&self, p: Point3, n: Vec3) -> Vec3 {
         match self {
             Self::Bumps(grains) => grains.vector(p),
-            Self::Dents(grains, old) => {
-                let v = grains.vector(p);
-                let n = if *old { v.x + 0.5 } else { (v.x + 1.052_42) * 0.489_855_82 };
-                let n = n.clamp(0.0, 1.0);
-                v * (n * n * n)
+            Self::Dents(grains, generator) => {
+                let n = ranged(grains, Vec3::<F8>::splat(p.to_vec()), *generator).0[0];
+                grains.vector(p) * (n * n * n)
             }
             Self::Wrinkles(grains) => {
                 let height = if *grains == Grains::Own { 1.18 } else { 1.0 };
@@ -70,6 +71,35 @@ impl Pusher {
             Self::Facets(amount, points) => {
                 let v = points.vector((p.to_vec() * FACETS).to_point());
                 (v - n * dot(v, n)) * *amount
+            }
+            Self::NormalFacets(width, points) => {
+                let snapped = points.nearest_point((unit(n) * (1.0 / width)).to_point());
+                unit(snapped.to_vec()) - n
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Normals of POV-Ray: its picture of a sphere under lights along the axes, in 16 bits.
+    #[test]
+    fn facets_of_normals_are_those_of_the_scene_language() {
+        let facets = Pusher::new(&Push::NormalFacets(0.5));
+        for (n, snapped) in [
+            ([0.005, -0.005, -0.999_975], [0.1680, 0.0052, -0.9858]),
+            ([0.405, 0.395, -0.824_591], [0.6345, 0.4997, -0.5896]),
+            ([-0.195, -0.505, -0.840_803], [-0.2507, -0.3921, -0.8851]),
+            ([-0.095, 0.695, -0.712_706], [-0.0912, 0.4172, -0.9042]),
+        ] {
+            let [x, y, z] = n;
+            let n = Vec3::new(x, y, z);
+            // The place does not count, nor the normal's length.
+            for (p, length) in [(Point3::new(3.0, -7.0, 0.5), 1.0), (Point3::new(0.0, 0.0, 0.0), 3.0)] {
+                let found = n * length + facets.vector(p, n * length);
+                assert!((0..3).all(|i| (found[i] - snapped[i]).abs() < 1e-4), "{n:?}: {found:?}");
             }
         }
     }

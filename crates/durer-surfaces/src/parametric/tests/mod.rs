@@ -356,6 +356,43 @@ fn rays_through_the_seam_of_a_moebius_strip_meet_it_once() {
 }
 
 /// A map goes on at a seam if it is periodic: not at a turned seam, at a corner, a pole or a border.
+/// `(2 u^3 - 4 u + 2 u^2 v - 1.5 u v^2, -3 u^2 v, -2.5 v - 2 u v^2)` over a square of width 2. The side
+/// `v = 0` goes along the x axis and back: at `u = 0.21` and at `u = 1.3` it is at the same place.
+fn folded() -> Parametric {
+    let (mut p, u, v) = Pen::new();
+    let [two, four, three, half] = [2.0, -4.0, -3.0, -1.5].map(|x| p.number(x));
+    let (uu, vv, more) = (p.times(u, u), p.times(v, v), p.number(-2.5));
+    let (cube, line) = (p.times(uu, u), p.times(four, u));
+    let (cube, uuv, uvv) = (p.times(two, cube), p.times(uu, v), p.times(u, vv));
+    let (bent, held, y) = (p.times(two, uuv), p.times(half, uvv), p.times(three, uuv));
+    let (x, more_x) = (p.plus(cube, line), p.plus(bent, held));
+    let x = p.plus(x, more_x);
+    let (down, twice) = (p.times(more, v), p.times(two, uvv));
+    let z = p.op(Op::Sub(down, twice));
+    p.made([x, y, z], [[0.0, 2.0], [0.0, 2.0]], None).unwrap()
+}
+
+#[test]
+fn sheets_that_share_a_border_are_both_met() {
+    let surface = folded();
+    let met = |o, [x, y, z]: [f64; 3]| {
+        let ray = Ray::new(Point3::from(o), Vec3::new(x, y, z)).with_range(0.0, 600.0);
+        all_roots(&surface, &ray)
+    };
+    // Through the border, and on to a touch.
+    let roots = met([-3.4375, 0.0, 7.8125], [0.0537109375, 0.0, -0.1611328125]);
+    let mut signs: Vec<i8> = roots.iter().map(|root| root.sign).collect();
+    signs[..2].sort_unstable();
+    assert_eq!(signs, [-1, 1, 0], "{roots:?}");
+    // Through one sheet at the border, and beside it almost in the other one.
+    let roots = met(
+        [-80.81835937499999, -2.197265625, -117.1875],
+        [0.15687942504882812, 0.004291534423828125, 0.2288818359375],
+    );
+    let kinds: Vec<RootKind> = roots.iter().map(|root| root.kind).collect();
+    assert_eq!(kinds, [RootKind::Grazing, RootKind::Simple], "{roots:?}");
+}
+
 #[test]
 fn seams_are_where_a_map_is_periodic() {
     let seams = |it: &Parametric| it.sheet.faces[0].has_seam;
