@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use durer_math::{Affine, AffineError, Point3};
+use durer_math::{Affine, AffineError, F8, Isa, M8, Point3};
 use durer_scene::{Colour, LearnedNoise, Pigment, Settings};
 
-use crate::texture::{Around, Grains, RenderPigment, building_with};
+use crate::lanes::Colour8;
+use crate::texture::{Around, Around8, Grains, RenderPigment, building_with};
 
 /// A pigment, prepared for evaluating its colour at points.
 ///
@@ -37,5 +38,14 @@ impl PigmentColours {
     /// The colour at a point.
     pub fn at(&self, p: Point3) -> Colour {
         self.0.at(p, Around::NOWHERE)
+    }
+
+    /// The brightness at eight points: [`Rgb::luminance`](durer_scene::Rgb::luminance), but for rounding.
+    pub fn luminances(&self, p: Point3<F8>) -> F8 {
+        let mut shown = [Colour8::splat(Colour::default())];
+        let points = core::iter::once((p, Around8::NOWHERE, M8::ALL));
+        self.0.show(Isa::detect(), points, &mut shown);
+        let [Colour8 { rgb, .. }] = shown;
+        F8(core::array::from_fn(|i| rgb.lane(i).luminance()))
     }
 }

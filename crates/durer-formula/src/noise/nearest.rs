@@ -50,6 +50,21 @@ struct Site {
     from: [Interval; 3],
 }
 
+/// Half-integer exponents below this are powers and a square root, which are faster than a logarithm.
+const MOST_HALVES: f64 = 16.0;
+
+/// `x^e`, for `x` that is not negative.
+#[inline(always)]
+fn raised(x: Interval, e: f64) -> Interval {
+    if e == 1.0 {
+        return x;
+    }
+    if e < MOST_HALVES && e.fract() == 0.5 {
+        return x.powi(e as i32).0 * x.sqrt();
+    }
+    x.pow(e.into()).0
+}
+
 impl Nearest {
     /// The distance of this rank, 0 to 2, with this exponent and this distance along a fourth axis.
     /// `None` if the rank is greater, the exponent is less than 1, or a number is not finite.
@@ -76,7 +91,7 @@ impl Nearest {
         match self.exponent {
             1.0 => x.abs(),
             2.0 => x.square(),
-            e => x.abs().pow(e.into()).0,
+            e => raised(x.abs(), e),
         }
     }
 
@@ -217,7 +232,7 @@ impl Nearest {
             _ if distance.lo <= 0.0 => unit,
             e => {
                 let ratio = (x.abs() / distance).intersection(unit).unwrap_or(unit);
-                if e == 2.0 { ratio } else { ratio.pow(Interval::from(e) - 1.0.into()).0 }
+                raised(ratio, e - 1.0)
             }
         };
         let size = size.intersection(unit).unwrap_or(unit);

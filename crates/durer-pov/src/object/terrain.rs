@@ -139,9 +139,7 @@ impl Parser<'_> {
         let made = texture_builder::pigment(&own, place)?;
         let colours = PigmentColours::new(&made, self.options.noise.as_ref(), &settings)
             .map_err(|error| Error::invalid(place, error.to_string()))?;
-        Ok(heights_of(size, |x, y| {
-            F8(std::array::from_fn(|i| colours.at(Point3::new(x.0[i], y, 0.0)).rgb.luminance()))
-        }))
+        Ok(heights_of(size, |x, y| colours.luminances(Point3 { x, y: F8::splat(y), z: F8::ZERO })))
     }
 
     /// The number of columns or rows.

@@ -75,7 +75,8 @@ impl<'w> Shadows<'w> {
     }
 
     /// Removes the light from points whose rays do not hit the object through which a light shines,
-    /// and ends the rays of the others there. A light without shadows keeps no rays.
+    /// and ends the rays of the others there. Points behind a parallel light have no rays, and so no
+    /// light (a fact of the scene language). A light without shadows keeps no rays.
     pub(super) fn project(&mut self, through: &Geometry, shadowless: bool) {
         // The sources of the rays belong to another geometry.
         let rays: Vec<Rays8> =
@@ -84,7 +85,7 @@ impl<'w> Shadows<'w> {
         see(through, &rays, mask::SHAPE, &mut hits, &mut self.scratch);
         let ends = self.rays.iter_mut().zip(&mut self.targets);
         for (((rays, target), light), hits) in ends.zip(&mut self.light).zip(&hits) {
-            *light = light.kept(!(rays.live & !hits.hit));
+            *light = light.kept(rays.live & hits.hit);
             rays.live &= hits.hit;
             // A copy of the object in the scene, at the same place, throws no shadow: the ray is the
             // same, so both crossings lie within the error bound of the exact one.

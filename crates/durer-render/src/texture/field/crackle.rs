@@ -40,6 +40,8 @@ impl Metric {
         match self {
             Self::Sum => x.abs(),
             Self::Euclid => x * x,
+            // Half-integer exponents are common, and a square root is faster than a logarithm.
+            Self::Power(e) if e.fract() == 0.5 => elementary::powi(x.abs(), e as i32) * x.abs().sqrt(),
             Self::Power(e) => elementary::pow(x.abs(), e),
         }
     }
@@ -76,22 +78,22 @@ impl Points {
         let [x, y, z] = p.to_array();
         let own = [floor(x), floor(y), floor(z)];
         let within = [x - own[0], y - own[1], z - own[2]];
+        // Along each axis, the nearest that points of the cells -2 to 2 away can be.
+        let gaps = within.map(|t| [t + 1.0, t, 0.0, 1.0 - t, 2.0 - t].map(|gap| self.metric.part(gap)));
         let mut nearest = [f64::INFINITY; 3];
         let mut point = own;
         let numbers = CellNumbers::get();
-        let mut visit = |step: [i32; 3]| {
-            let offset = step.map(f64::from);
-            // The nearest that a point in that cell can be.
-            let gap = |axis: usize| match step[axis] {
-                0 => 0.0,
-                1.. => offset[axis] - within[axis],
-                _ => within[axis] - offset[axis] - 1.0,
-            };
-            let least = self.metric.part(gap(0)) + self.metric.part(gap(1)) + self.metric.part(gap(2));
+        for (i, step) in NEAR_FIRST.iter().enumerate() {
             let reach = if self.form.z == 0.0 { nearest[1] } else { nearest[2] };
-            if least >= reach {
-                return;
+            // All further cells are at least 1 away along an axis.
+            if i == NEXT_CELLS && reach <= 1.0 {
+                break;
             }
+            let gap = |axis: usize| gaps[axis][(step[axis] + 2) as usize];
+            if gap(0) + gap(1) + gap(2) >= reach {
+                continue;
+            }
+            let offset = step.map(f64::from);
             let point_within = numbers.of(core::array::from_fn(|axis| own[axis] + offset[axis]));
             let at: [f64; 3] = core::array::from_fn(|axis| offset[axis] + point_within[axis]);
             let part = |axis: usize| self.metric.part(at[axis] - within[axis]);
@@ -104,9 +106,6 @@ impl Points {
             } else if sum < nearest[2] {
                 nearest[2] = sum;
             }
-        };
-        for &step in &NEAR_FIRST {
-            visit(step);
         }
         (nearest, point)
     }
@@ -146,7 +145,10 @@ impl Points {
     }
 }
 
-/// The cells around a cell up to two away, the nearest first.
+/// How many cells touch a cell, itself included.
+const NEXT_CELLS: usize = 27;
+
+/// The cells around a cell up to two away, the nearest first: those that touch it before all others.
 const NEAR_FIRST: [[i32; 3]; 125] = near_first();
 
 const fn near_first() -> [[i32; 3]; 125] {
@@ -179,6 +181,8 @@ mod tests {
         seen.sort_unstable();
         seen.dedup();
         assert_eq!((seen.len(), NEAR_FIRST[0]), (125, [0; 3]));
+        let touches = |step: &[i32; 3]| step.iter().all(|s| s.abs() <= 1);
+        assert!(NEAR_FIRST.iter().enumerate().all(|(i, step)| touches(step) == (i < NEXT_CELLS)));
     }
 
     /// Functions of surfaces have the same distances, with proven bounds.
