@@ -4,6 +4,7 @@
 use super::cell::Cell;
 use super::net::{FaceNet, Homogeneous, half, relative};
 use crate::CentredRay;
+use crate::degree::Domain;
 use core::cell::OnceCell;
 use durer_math::{Dd, EFloat};
 
@@ -21,12 +22,17 @@ impl<'a> Exact<'a> {
         Self { at, faces, ray: OnceCell::new(), axes }
     }
 
-    /// The numbers of control points of a face along its parameters; `None` for a triangle.
+    /// The numbers of control points of a face over a box, along its parameters.
     pub(super) fn size(&self, face: u32) -> Option<[usize; 2]> {
-        match self.faces.get(face as usize)? {
-            FaceNet::Square(net) => Some(net.size),
-            FaceNet::Triangle(_) => None,
-        }
+        Some(match self.faces.get(face as usize)? {
+            FaceNet::Square(net) => net.size,
+            FaceNet::Triangle(net) => [net.side; 2],
+        })
+    }
+
+    /// Whether a box reaches beyond the third side of a face that is a triangle.
+    pub(super) fn is_cut(&self, face: u32, around: &Domain) -> bool {
+        self.faces.get(face as usize).is_some_and(FaceNet::is_triangle) && around[0][1] + around[1][1] > 1.0
     }
 
     /// The control points of the half of a cell that is in the triangle, relative to the cell's base.

@@ -515,22 +515,32 @@ impl<'a> View<'a> {
     /// The sign of `S_u x S_v . d` in a box, if it is the same at four points of it.
     #[inline(always)]
     pub(super) fn turn(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
+        self.turn_beyond([0.0; 2], from, width)
+    }
+
+    /// Likewise, if it is certain where the slopes of both functions have these errors.
+    #[inline(always)]
+    fn turn_beyond(&self, [e_a, e_b]: [f64; 2], from: [f64; 2], width: [f64; 2]) -> i8 {
         let signs = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|at| {
             let x = [0, 1].map(|k| f64::mul_add(at[k], width[k], from[k]));
             let [a, b] = self.local(&self.cell.at(self.rational, x)).j;
             let det = a[0].mul_add(b[1], -(a[1] * b[0])) * self.line.d_z;
-            i8::from(det > 0.0) - i8::from(det < 0.0)
+            let room = ((a[0].abs() + a[1].abs()) * e_b + (b[0].abs() + b[1].abs() + 2.0 * e_b) * e_a)
+                * self.line.d_z.abs()
+                * ROUNDED;
+            i8::from(det > room) - i8::from(det < -room)
         });
         if signs.iter().all(|s| *s == signs[0]) { signs[0] } else { 0 }
     }
 
     /// The sign of an unproven crossing in a box. A line may touch an open surface where it folds at
     /// its border, and the box ends there: of such a surface, the points are half the box's width
-    /// beyond its corners.
+    /// beyond its corners, and the sign is 0 if rounding may have made it.
     #[inline(always)]
     fn turn_near(&self, from: [f64; 2], width: [f64; 2]) -> i8 {
         if self.is_open {
-            self.turn([0, 1].map(|k| f64::mul_add(-1.5, width[k], from[k])), width.map(|w| 4.0 * w))
+            let from = [0, 1].map(|k| f64::mul_add(-1.5, width[k], from[k]));
+            self.turn_beyond(self.limits.e_j, from, width.map(|w| 4.0 * w))
         } else {
             self.turn(from, width)
         }

@@ -342,7 +342,11 @@ impl Shell {
             let places: Vec<_> = found.iter().map(Found::place).collect();
             let is_reversed = (line.d_z < 0.0) != face.is_turned;
             let sum_in = |around: &_| {
-                turns_around(&exact, own.face, around).map(|turns| if is_reversed { -turns } else { turns })
+                let turns = turns_around(&exact, own.face, around)?;
+                // Beyond the third side of a triangle the map goes on: if it has none there, or as many in
+                // either direction, the line may touch the side.
+                let is_known = turns == 0 || !exact.is_cut(own.face, around);
+                is_known.then_some(if is_reversed { -turns } else { turns })
             };
             match sum_of_signs(&places, i, &[[0.0, 1.0]; 2], [false; 2], sum_in) {
                 Sum::Of(sum) => found[i].turn = sum,
