@@ -123,7 +123,7 @@ pub enum Between {
 pub enum ImageValue {
     /// The grey value of the colour.
     Grey,
-    /// The index in the palette, divided by 255.
+    /// The index in the palette, divided by 255; for bumps the index itself.
     Index,
     /// The opacity.
     Alpha,

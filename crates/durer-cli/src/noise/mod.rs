@@ -23,7 +23,6 @@ pub(crate) fn run(args: &LearnNoiseArgs) -> Result<(), Failure> {
     let unlike = || Failure::file(program, "its noise is not the one that durer knows how to measure");
     let table_asked = table::asked().ok_or_else(unlike)?;
     let (version, said) = povray::printed(program, table_asked.iter().chain(&rows::asked()))?;
-    // Numbers of the table come three at a time.
     let (for_table, for_rows) = said.split_at_checked(table::NUMBERS).ok_or_else(unlike)?;
     let (table, difference) = table::found(for_table).ok_or_else(unlike)?;
     let (rows, rows_difference) = rows::found(for_rows).ok_or_else(unlike)?;

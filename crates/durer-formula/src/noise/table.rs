@@ -201,13 +201,7 @@ impl Lattice for TableLattice<'_, Hashed> {
 
     #[inline(always)]
     fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T> {
-        let mut out = Sum { v: Eight::ZERO, d: [Eight::ZERO; 3] };
-        for (i, &hash) in hash.iter().enumerate() {
-            let [v, x, y, z] = self.0.points[hash as usize % Hashed::POINTS];
-            out.v.0[i] = T::nearest(v);
-            (out.d[0].0[i], out.d[1].0[i], out.d[2].0[i]) = (T::nearest(x), T::nearest(y), T::nearest(z));
-        }
-        out
+        gathered(hash, |hash| self.0.points[hash % Hashed::POINTS])
     }
 }
 
@@ -233,11 +227,21 @@ impl Lattice for TableLattice<'_, Rows> {
 
     #[inline(always)]
     fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T> {
-        let mut out = Sum { v: Eight::ZERO, d: [Eight::ZERO; 3] };
-        for (i, &hash) in hash.iter().enumerate() {
-            let [x, y, z] = self.0.slopes[hash as usize % Rows::PERIOD];
-            (out.d[0].0[i], out.d[1].0[i], out.d[2].0[i]) = (T::nearest(x), T::nearest(y), T::nearest(z));
-        }
-        out
+        gathered(hash, |hash| {
+            let [x, y, z] = self.0.slopes[hash % Rows::PERIOD];
+            [0.0, x, y, z]
+        })
     }
+}
+
+/// The values and slopes of eight points: `point` gives those of a hash.
+#[inline(always)]
+fn gathered<T: Grain>(hash: &[u32; 8], point: impl Fn(usize) -> [f64; 4]) -> Sum<T> {
+    let mut out = Sum { v: Eight::ZERO, d: [Eight::ZERO; 3] };
+    for (i, &hash) in hash.iter().enumerate() {
+        let [v, x, y, z] = point(hash as usize);
+        out.v.0[i] = T::nearest(v);
+        (out.d[0].0[i], out.d[1].0[i], out.d[2].0[i]) = (T::nearest(x), T::nearest(y), T::nearest(z));
+    }
+    out
 }

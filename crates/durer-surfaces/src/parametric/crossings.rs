@@ -44,7 +44,7 @@ pub(super) struct Edges<'a> {
 impl Edges<'_> {
     /// Whether crossings are one on a border: both may be on borders of their domains, at the same place
     /// of the line. Of several maps it is a common edge, and both go through it in the same direction.
-    /// Of a map that is alone it is a seam, where it comes back to itself, perhaps turned over.
+    /// A map that is alone comes back to itself at a seam, perhaps turned over.
     fn are_one(&self, a: &Found, b: &Found) -> bool {
         let [x, y] = [a, b].map(|found| ends(found, self.faces));
         if x == [[false; 2]; 2] || y == [[false; 2]; 2] {

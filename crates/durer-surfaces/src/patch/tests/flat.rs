@@ -157,13 +157,34 @@ fn a_line_almost_in_the_plane_has_the_sign_of_its_crossing() {
     assert_eq!(signs(&Ray::new(origin, -direction).with_range(-1.0, 0.0)), [(RootKind::Cluster, -1)]);
 }
 
+/// A line that is in the plane of a triangular patch but for an angle of 4e-18 goes through it once: the
+/// degree in double-double gives the sign of `d . n` in exact arithmetic, and the line back the other.
+#[test]
+fn a_line_almost_in_the_plane_of_a_triangular_patch_has_the_sign_of_its_crossing() {
+    let net = [
+        [0.0, 0.04926094997755026, 0.0, 1.0],
+        [1.0, -1.623798095416264, 0.0, 1.0],
+        [0.0, 1.838885178052775, 1.0, 1.0],
+    ];
+    let triangle = TriangularPatch::rational(2, &net).unwrap();
+    let origin = Point3::new(0.3978071890349969, -0.09209540118446949, 0.2929098503206198);
+    let direction = Vec3::new(0.5, 0.05828259134070522, 0.5);
+    for (way, sign) in [(1.0, 1), (-1.0, -1)] {
+        let roots = all_roots(&triangle, &Ray::new(origin, direction * way).with_range(-10.0, 10.0));
+        let [root] = &roots[..] else { panic!("{roots:?}") };
+        assert!(root.sign == sign && root.kind == RootKind::Cluster, "{root:?}");
+        let t = -0.3700593083459438 * way;
+        assert!(root.lo <= t && t <= root.hi && root.hi - root.lo < 1e-8, "{root:?}");
+    }
+}
+
 /// Lines through a flat triangle of three control points that are in its plane but for an angle of some
 /// 1e-17, or exactly, meet it. A crossing has the sign of `d . n` in whole numbers, or 0 where rounding hides
 /// it, which is so for most of these lines: they are nowhere farther from the plane than their errors.
 #[test]
-fn lines_almost_in_the_plane_of_a_triangle_have_the_sign_of_their_crossing() {
+fn lines_almost_in_the_plane_of_a_triangle_have_no_wrong_sign() {
     let exact = |v: Vec3| [v.x, v.y, v.z].map(Dyadic::exact);
-    let (mut rays, mut seen, mut unknown) = (0, [0; 2], 0);
+    let (mut rays, mut unknown) = (0, 0);
     for case in drawn(2000) {
         let mut dice = crate::laws::dice(86, case);
         let corners = [dice.lattice(8) * 0.125, dice.lattice(8) * 0.125, dice.lattice(8) * 0.125];
@@ -189,11 +210,9 @@ fn lines_almost_in_the_plane_of_a_triangle_have_the_sign_of_their_crossing() {
         assert!(sum == 0 || sum == way, "{case}: {sum} {way} {roots:?} {ray:?}");
         unknown += u64::from(sum == 0 && way != 0);
         assert!(roots.iter().any(|root| root.lo <= 0.0 && root.hi >= 0.0), "{case}: {roots:?} {ray:?}");
-        seen[usize::from(sum != 0)] += 1;
     }
-    println!("{rays} rays, {seen:?}, {unknown} of unknown sign");
+    println!("{rays} rays, {unknown} of unknown sign");
     report(rays);
-    assert!(seen[1] > 0, "{seen:?}");
 }
 
 /// A tangent of the paraboloid `y = x² + z²` meets it nowhere else, so the signs add up to 0. The lines
