@@ -14,7 +14,7 @@
 //! The numbers are not part of durer: they are measured from an installed POV-Ray.
 
 use durer_formula::noise::permutation::{PERIOD, permutation, wide_hash};
-use durer_formula::noise::{self, NoiseTable};
+use durer_formula::noise::{self, NoiseTable, VectorTable};
 use durer_math::{F8, Point3, Vec3};
 
 /// The length of the table.
@@ -27,7 +27,7 @@ const FIRST_CELL: i64 = 10_000;
 #[derive(Clone, PartialEq)]
 pub struct LearnedNoise {
     /// The scalar noise, which is the first component of the vector noise, and the other two.
-    components: [&'static NoiseTable; 3],
+    vector: VectorTable,
     /// The table of the third noise generator.
     rows: &'static NoiseTable,
 }
@@ -50,15 +50,14 @@ impl LearnedNoise {
         }
         let order = permutation();
         let once: &[u16; PERIOD] = order.first_chunk()?;
-        let component = |shift: usize| {
-            let points = core::array::from_fn(|hash| {
+        let points = [0, 4, 8].map(|shift: usize| {
+            core::array::from_fn(|hash| {
                 let of = |i: usize| table[hash + shift + i];
                 [0.5 * of(0), of(1), of(2), of(3)]
-            });
-            NoiseTable::shared(&points, once)
-        };
-        let components = [component(0)?, component(4)?, component(8)?];
-        Some(Self { components, rows: NoiseTable::own_rows() })
+            })
+        });
+        let vector = VectorTable::shared(points.each_ref(), once)?;
+        Some(Self { vector, rows: NoiseTable::own_rows() })
     }
 
     /// With the slopes of the third noise generator and how they are distributed, see
@@ -74,7 +73,7 @@ impl LearnedNoise {
 
     /// The scalar noise, which is the first component of the vector noise, and the other two.
     pub fn components(&self) -> [&'static NoiseTable; 3] {
-        self.components
+        self.vector.components()
     }
 
     /// The hash of the lattice point `(x, 0, 0)`, by which a table is measured.
@@ -92,13 +91,18 @@ impl LearnedNoise {
     /// The vector noise at a point.
     pub fn vector(&self, p: Point3) -> Vec3 {
         let lanes = p.to_array().map(F8::splat);
-        let [x, y, z] = [0, 1, 2].map(|axis| self.component(axis, lanes.each_ref()).0[0]);
+        let [x, y, z] = self.vectors(lanes.each_ref()).map(|component| component.0[0]);
         Vec3::new(x, y, z)
+    }
+
+    /// The vector noise at eight points.
+    pub fn vectors(&self, p: [&F8; 3]) -> [F8; 3] {
+        self.vector.values(p)
     }
 
     /// A component of the vector noise at eight points: 0, which is the scalar noise, 1 or 2.
     pub fn component(&self, axis: usize, p: [&F8; 3]) -> F8 {
-        noise::values(Some(self.components[axis.min(2)]), p)
+        noise::values(Some(self.components()[axis.min(2)]), p)
     }
 }
 

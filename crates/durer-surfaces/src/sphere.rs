@@ -306,6 +306,7 @@ impl Surface for Sphere {
         Solidity::Solid
     }
 
+    #[inline(always)]
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         self.with_view(|v| v.side(point))
     }

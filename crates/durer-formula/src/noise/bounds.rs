@@ -36,7 +36,7 @@
 //! Boxes so small that such a rounding is significant beside the variation of the value are also
 //! treated as small ones.
 
-use super::{Along, Lattice, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell};
+use super::{Along, Lattice, SLOPE_ROUNDINGS, Sum, VALUE_ROUNDINGS, are_one_cell, hashes};
 use crate::I8;
 use durer_math::real::{Eight, Real, less, more, roundings};
 use durer_math::{F8, Isa, M8};
@@ -314,9 +314,11 @@ fn whole<L: Lattice>(lattice: L, parts: &[Part; 3]) -> (Ends, [Ends; 3]) {
             // Rounded up.
             let size = lattice.size() as f32 * more::<f32>(2.0);
             if are_one_cell(&along) {
-                within_corners(size, &along, &within, &Sum::corners::<true, L>(lattice, &along))
+                let corners = Sum::corners_of_one(lattice, &along, &hashes(lattice, &along));
+                within_corners(size, &along, &within, &corners)
             } else {
-                within_corners(size, &along, &within, &Sum::corners::<false, L>(lattice, &along))
+                let corners = Sum::corners(lattice, &along, &hashes(lattice, &along));
+                within_corners(size, &along, &within, &corners)
             }
         },
     )

@@ -30,10 +30,12 @@ mod cell_numbers;
 mod nearest;
 pub mod permutation;
 mod table;
+mod vector;
 
 pub use cell_numbers::CellNumbers;
 pub use nearest::Nearest;
 pub use table::NoiseTable;
+pub use vector::VectorTable;
 
 use crate::I8;
 use durer_math::real::{Eight, Real, real};
@@ -57,8 +59,9 @@ trait Lattice: Copy {
     fn size(self) -> f64;
     /// The number of a cell along an axis.
     fn cell(self, whole: f64, axis: usize) -> u32;
-    /// The hash of a point, from the numbers along the axes.
-    fn hash(self, cells: [u32; 3]) -> u32;
+    /// The hash of a point as far as this axis: `before` is that of the axes before it, 0 at first, and
+    /// `cell` the number along it.
+    fn hash(self, before: u32, cell: u32, axis: usize) -> u32;
     /// Values and slopes of eight points of the lattice.
     fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T>;
 }
@@ -82,8 +85,8 @@ impl Lattice for Own {
     }
 
     #[inline(always)]
-    fn hash(self, [x, y, z]: [u32; 3]) -> u32 {
-        x ^ y ^ z
+    fn hash(self, before: u32, cell: u32, _: usize) -> u32 {
+        before ^ cell
     }
 
     #[inline(always)]
@@ -206,20 +209,22 @@ fn mixed(x: u32) -> u32 {
     x ^ x >> 16
 }
 
-/// The hash of one corner of each lane's cell.
+/// The hashes of the eight corners of the first lanes' cells.
 #[inline(always)]
-fn hashes<T, L: Lattice>(lattice: L, along: &[Along<T>; 3], corner: usize) -> [u32; 8] {
-    let mut hash = [0; 8];
-    for (lane, hash) in hash.iter_mut().enumerate() {
-        *hash = lattice.hash(cells(along, corner, lane));
+fn hashes<const LANES: usize, T, L: Lattice>(lattice: L, along: &[Along<T>; 3]) -> [[u32; LANES]; 8] {
+    let mut hash = [[0; LANES]; 8];
+    for (axis, along) in along.iter().enumerate() {
+        let before = hash;
+        // Bit `axis` of a corner's number is its position along this axis. Corners that differ in the
+        // bits above have the same hash so far.
+        for corner in 0..2 << axis {
+            for lane in 0..LANES {
+                let cell = along.corner[corner >> axis][lane];
+                hash[corner][lane] = lattice.hash(before[corner % (1 << axis)][lane], cell, axis);
+            }
+        }
     }
     hash
-}
-
-/// The numbers of one corner of a lane's cell along the axes.
-#[inline(always)]
-fn cells<T>([x, y, z]: &[Along<T>; 3], corner: usize, lane: usize) -> [u32; 3] {
-    [x.corner[corner & 1][lane], y.corner[corner >> 1 & 1][lane], z.corner[corner >> 2][lane]]
 }
 
 /// An array of the values of an expression for each corner: bit `i` of its number is its position
@@ -264,18 +269,16 @@ impl<T: Grain> Sum<T> {
         out
     }
 
-    /// The contributions of all corners; if all lanes are in one cell, its eight corners are hashed
-    /// once.
+    /// The contributions of all corners, with their hashes for each lane.
     #[inline(always)]
-    fn corners<const ONE_CELL: bool, L: Lattice>(lattice: L, along: &[Along<T>; 3]) -> [Self; 8] {
-        if !ONE_CELL {
-            return each_corner!(c => lattice.values(&hashes(lattice, along, c)).seen(along, c));
-        }
-        let mut hash = [0; 8];
-        for (corner, hash) in hash.iter_mut().enumerate() {
-            *hash = lattice.hash(cells(along, corner, 0));
-        }
-        let values = lattice.values(&hash);
+    fn corners<L: Lattice>(lattice: L, along: &[Along<T>; 3], hashes: &[[u32; 8]; 8]) -> [Self; 8] {
+        each_corner!(c => lattice.values(&hashes[c]).seen(along, c))
+    }
+
+    /// The contributions of all corners of the one cell of all lanes, with their hashes.
+    #[inline(always)]
+    fn corners_of_one<L: Lattice>(lattice: L, along: &[Along<T>; 3], hashes: &[[u32; 1]; 8]) -> [Self; 8] {
+        let values = lattice.values(hashes.as_flattened().as_array().unwrap_or(&[0; 8]));
         each_corner!(c => values.splat(c).seen(along, c))
     }
 
@@ -321,14 +324,20 @@ impl<T: Grain> Sum<T> {
 impl Sum<f64> {
     /// The noise at eight points.
     #[inline(always)]
-    fn at<L: Lattice>(lattice: L, [x, y, z]: [&F8; 3]) -> Self {
-        let along = [Along::of(lattice, x, 0), Along::of(lattice, y, 1), Along::of(lattice, z, 2)];
+    fn at<L: Lattice>(lattice: L, p: [&F8; 3]) -> Self {
+        let along = positions(lattice, p);
         if are_one_cell(&along) {
-            Self::of(&along, &Self::corners::<true, L>(lattice, &along))
+            Self::of(&along, &Self::corners_of_one(lattice, &along, &hashes(lattice, &along)))
         } else {
-            Self::of(&along, &Self::corners::<false, L>(lattice, &along))
+            Self::of(&along, &Self::corners(lattice, &along, &hashes(lattice, &along)))
         }
     }
+}
+
+/// The cells and positions of eight points along the axes.
+#[inline(always)]
+fn positions<L: Lattice>(lattice: L, [x, y, z]: [&F8; 3]) -> [Along<f64>; 3] {
+    [Along::of(lattice, x, 0), Along::of(lattice, y, 1), Along::of(lattice, z, 2)]
 }
 
 /// The value of an expression with the lattice of a table, or durer's own.

@@ -36,11 +36,11 @@ pub(super) struct Hashed {
 
 impl Hashed {
     /// How many cells along an axis differ; further ones repeat them.
-    const PERIOD: usize = 4096;
+    pub(super) const PERIOD: usize = 4096;
     /// The cell 0 has this number.
     const FIRST: u32 = 10_000;
     /// How many points of the lattice differ.
-    const POINTS: usize = 256;
+    pub(super) const POINTS: usize = 256;
 
     #[inline(always)]
     fn next(&self, at: u32) -> u32 {
@@ -194,14 +194,13 @@ impl Lattice for TableLattice<'_, Hashed> {
     }
 
     #[inline(always)]
-    fn hash(self, [x, y, z]: [u32; 3]) -> u32 {
-        let Self(table, _) = self;
-        table.next(table.next(table.next(x) ^ y) ^ z)
+    fn hash(self, before: u32, cell: u32, _: usize) -> u32 {
+        self.0.next(before ^ cell)
     }
 
     #[inline(always)]
     fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T> {
-        gathered(hash, |hash| self.0.points[hash % Hashed::POINTS])
+        gathered(hash, |hash| self.0.points[hash as usize % Hashed::POINTS])
     }
 }
 
@@ -219,16 +218,16 @@ impl Lattice for TableLattice<'_, Rows> {
     }
 
     #[inline(always)]
-    fn hash(self, [x, y, z]: [u32; 3]) -> u32 {
-        let [a, b] = &self.0.starts;
-        let y = y.wrapping_add(a[x as usize % Rows::PERIOD].into());
-        z.wrapping_add(b[y as usize % Rows::PERIOD].into())
+    fn hash(self, before: u32, cell: u32, axis: usize) -> u32 {
+        let along = before.wrapping_add(cell);
+        // Along z, the numbers go on.
+        self.0.starts.get(axis).map_or(along, |starts| starts[along as usize % Rows::PERIOD].into())
     }
 
     #[inline(always)]
     fn values<T: Grain>(self, hash: &[u32; 8]) -> Sum<T> {
         gathered(hash, |hash| {
-            let [x, y, z] = self.0.slopes[hash % Rows::PERIOD];
+            let [x, y, z] = self.0.slopes[hash as usize % Rows::PERIOD];
             [0.0, x, y, z]
         })
     }
@@ -236,10 +235,10 @@ impl Lattice for TableLattice<'_, Rows> {
 
 /// The values and slopes of eight points: `point` gives those of a hash.
 #[inline(always)]
-fn gathered<T: Grain>(hash: &[u32; 8], point: impl Fn(usize) -> [f64; 4]) -> Sum<T> {
+fn gathered<T: Grain>(hash: &[u32; 8], point: impl Fn(u32) -> [f64; 4]) -> Sum<T> {
     let mut out = Sum { v: Eight::ZERO, d: [Eight::ZERO; 3] };
     for (i, &hash) in hash.iter().enumerate() {
-        let [v, x, y, z] = point(hash as usize);
+        let [v, x, y, z] = point(hash);
         out.v.0[i] = T::nearest(v);
         (out.d[0].0[i], out.d[1].0[i], out.d[2].0[i]) = (T::nearest(x), T::nearest(y), T::nearest(z));
     }

@@ -133,6 +133,30 @@ fn rounded_values_and_slopes_are_as_near_as_is_said() {
     }
 }
 
+/// The exact values of each table are checked above.
+#[test]
+fn the_components_of_a_vector_are_the_values_of_its_tables() {
+    let (points, order) = numbers();
+    let more = [1, 2].map(|by| core::array::from_fn(|i| points[(i + by) % points.len()]));
+    let vector = VectorTable::shared([&points, &more[0], &more[1]], &order).unwrap();
+    let mut dice = TestRng::new(79);
+    let (mut one_cell, mut several) = (0, 0);
+    for _ in 0..10_000 {
+        let (size, from) = (dice.scale(-20, 20), dice.scale(-2, 40));
+        let start = [0; 3].map(|_| dice.signed() * from);
+        let p = start.map(|x| F8(core::array::from_fn(|_| x + dice.unit() * size)));
+        let cells = |i: usize| p.each_ref().map(|x| x.0[i].floor());
+        if (1..8).all(|i| cells(i) == cells(0)) {
+            one_cell += 1;
+        } else {
+            several += 1;
+        }
+        let each = vector.components().map(|table| values(Some(table), p.each_ref()));
+        assert_eq!(vector.values(p.each_ref()), each, "{p:?}");
+    }
+    assert!(one_cell > 1000 && several > 1000, "{one_cell} {several}");
+}
+
 fn size(table: Option<&NoiseTable>) -> f64 {
     table.map_or(1.0, NoiseTable::size)
 }
@@ -141,7 +165,7 @@ fn size(table: Option<&NoiseTable>) -> f64 {
 fn single<L: Lattice>(lattice: L, whole: [f64; 3], t: [f32; 3]) -> Sum<f32> {
     let along =
         [0, 1, 2].map(|i| Along::new([lattice.cell(whole[i], i); 8], &Eight::splat(t[i]), L::STEP[i]));
-    Sum::of(&along, &Sum::corners::<false, L>(lattice, &along))
+    Sum::of(&along, &Sum::corners(lattice, &along, &hashes(lattice, &along)))
 }
 
 /// In single precision, too, at points that it can represent: in the cells around the lattice's

@@ -421,7 +421,13 @@ impl<S: Accelerate + 'static> AnyArena for Arena<S> {
 
     fn side(&self, surface: u32, point: &LocalPoint<'_>) -> Side {
         let surface = &self.surfaces[surface as usize];
-        if surface.solidity() == Solidity::Solid { surface.side(point) } else { Side::Out }
+        if surface.solidity() != Solidity::Solid {
+            return Side::Out;
+        }
+        Isa::detect().run(
+            #[inline(always)]
+            || surface.side(point),
+        )
     }
 
     fn resolve(&self, isa: Isa, slot: u32, ray: &LocalRay<'_>, root: &Root, need: Need) -> SurfacePoint {

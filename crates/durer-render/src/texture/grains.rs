@@ -64,7 +64,7 @@ impl Grains {
     }
 
     /// A component of the vector noise at some points.
-    pub(crate) fn component(&self, p: Vec3<F8>, axis: usize) -> F8 {
+    fn component(&self, p: Vec3<F8>, axis: usize) -> F8 {
         match self {
             Self::Own => {
                 let [x, y, z] = ELSEWHERE[axis];
@@ -72,6 +72,17 @@ impl Grains {
             }
             Self::Learned(learned) => learned.component(axis, [&p.x, &p.y, &p.z]),
         }
+    }
+
+    /// The components of the vector noise at some points that are wanted; the others are arbitrary.
+    pub(crate) fn vectors(&self, p: Vec3<F8>, wanted: [bool; 3]) -> Vec3<F8> {
+        let [x, y, z] = match self {
+            Self::Learned(learned) if wanted.iter().filter(|&&is_wanted| is_wanted).count() > 1 => {
+                learned.vectors([&p.x, &p.y, &p.z])
+            }
+            _ => [0, 1, 2].map(|axis| if wanted[axis] { self.component(p, axis) } else { F8::ZERO }),
+        };
+        Vec3 { x, y, z }
     }
 
     /// The vector noise at a point.

@@ -79,6 +79,7 @@ impl<S: Accelerate> Surface for Placed<S> {
         self.surface.solidity()
     }
 
+    #[inline(always)]
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         self.surface.side(&point.through(&self.map))
     }

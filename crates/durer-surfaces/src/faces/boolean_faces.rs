@@ -489,6 +489,7 @@ impl View<'_> {
     }
 
     /// On which side of the closed solid a point lies.
+    #[inline(always)]
     pub(crate) fn side(&self, point: &LocalPoint<'_>) -> Side {
         let mut side = Side::In;
         let mut exact = None;

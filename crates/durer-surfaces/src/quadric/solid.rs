@@ -62,6 +62,7 @@ impl<S: QuadricFaces> Surface for QuadricSolid<S> {
         if self.shape.walls() < self.shape.faces() { Solidity::Open } else { Solidity::Solid }
     }
 
+    #[inline(always)]
     fn side(&self, point: &LocalPoint<'_>) -> Side {
         if self.solidity() == Solidity::Open { Side::Out } else { self.view().side(point) }
     }

@@ -34,12 +34,14 @@ impl LocalPoint<'static> {
 
 impl<'a> LocalPoint<'a> {
     /// The ray's point `o + s d`, with `s` in the ray's own parameter: exactly on the ray.
+    #[inline(always)]
     pub fn along(ray: &'a LocalRay<'a>, s: f64) -> Self {
         let (x, e) = ray.moved(Point3::ORIGIN, s);
         Self { p: x.to_point(), p_err: e, origin: PointOrigin::Along(ray, s) }
     }
 
     /// The point in the frame of a surface that `affine` places.
+    #[inline(always)]
     pub fn through(&'a self, affine: &'a Affine) -> LocalPoint<'a> {
         let (x, e) = relative(self.p, self.p_err, affine.centre());
         let (x, e) = through_inverse(affine, x, e);
@@ -47,6 +49,7 @@ impl<'a> LocalPoint<'a> {
     }
 
     /// The point relative to `centre`, in units of `2^scale`, with a bound on its error.
+    #[inline(always)]
     pub fn relative_to(&self, centre: Point3, scale: i32) -> (Vec3, Vec3) {
         let (x, e) = relative(self.p, self.p_err, centre);
         (x.map(|x| scale2(x, -scale)), e.map(|x| scale2(x, -scale) + TINY))

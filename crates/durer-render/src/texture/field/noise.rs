@@ -103,22 +103,21 @@ impl Stir {
         sum
     }
 
-    /// A component of `D`.
-    fn component(&self, p: Point3<F8>, axis: usize) -> F8 {
-        let mut sum = F8::ZERO;
+    /// `D`, with arbitrary components along the axes along which the turbulence is 0.
+    fn vector(&self, p: Point3<F8>) -> Vec3<F8> {
+        let wanted = self.amount.to_array().map(|t| t != 0.0);
+        let mut sum = Vec3::splat(Vec3::ZERO);
         for &(weight, scale) in &self.octaves {
-            sum += self.grains.component(p.to_vec() * F8::splat(scale), axis) * weight;
+            sum += self.grains.vectors(p.to_vec() * F8::splat(scale), wanted) * F8::splat(weight);
         }
         sum
     }
 
     /// `p + t D(p)`.
     pub(crate) fn moved(&self, p: Point3<F8>) -> Point3<F8> {
-        let along = |axis: usize, amount: f64| {
-            if amount == 0.0 { F8::ZERO } else { self.component(p, axis) * amount }
-        };
-        let Vec3 { x, y, z } = self.amount;
-        p + Vec3::new(along(0, x), along(1, y), along(2, z))
+        let moved = |way: F8, amount: f64| if amount == 0.0 { F8::ZERO } else { way * amount };
+        let (d, t) = (self.vector(p), self.amount);
+        p + Vec3::new(moved(d.x, t.x), moved(d.y, t.y), moved(d.z, t.z))
     }
 }
 
@@ -130,13 +129,12 @@ pub(super) fn marble(stir: Option<&Stir>, p: Point3<F8>) -> F8 {
 }
 
 pub(super) fn wood(stir: Option<&Stir>, p: Point3<F8>, live: M8) -> F8 {
-    let along = |axis: usize, x: F8, amount: f64| {
-        let Some(stir) = stir.filter(|_| amount != 0.0) else { return x };
-        let way = (x + stir.component(p, axis)) * (TAU * amount);
-        x + each(way, live, elementary::sin)
+    let Some(stir) = stir else { return (p.x * p.x + p.y * p.y).sqrt() };
+    let (d, t) = (stir.vector(p), stir.amount);
+    let along = |x: F8, d: F8, t: f64| {
+        if t == 0.0 { x } else { x + each((x + d) * (TAU * t), live, elementary::sin) }
     };
-    let amount = stir.map_or(Vec3::ZERO, |stir| stir.amount);
-    let (x, y) = (along(0, p.x, amount.x), along(1, p.y, amount.y));
+    let (x, y) = (along(p.x, d.x, t.x), along(p.y, d.y, t.y));
     (x * x + y * y).sqrt()
 }
 

@@ -60,37 +60,69 @@ impl Flat {
         self.base + self.axes[0] * a + self.axes[1] * b
     }
 
-    /// The least and the greatest parameter at which a line in the plane is in the hull: products of
-    /// whole numbers are exact, and so is everything but the quotients.
-    fn extent(&self, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
+    /// The least and the greatest parameter at which a line in the plane is off the hull by at most `off`.
+    /// For 0 that is decided without rounding: products of whole numbers are exact, and so is everything
+    /// but the quotients.
+    fn extent(&self, [a, b]: [f64; 2], [c, d]: [f64; 2], off: f64) -> Option<[f64; 2]> {
         let seen: Vec<[f64; 2]> = self
             .points
             .iter()
             .map(|p| [(p[0] - a) * d - (p[1] - b) * c, (p[0] - a) * c + (p[1] - b) * d])
             .collect();
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut add = |at: f64| {
+            let t = at / (c * c + d * d);
+            ends = [ends[0].min(t), ends[1].max(t)];
+        };
         for [g, z] in &seen {
+            if g.abs() <= off {
+                add(*z);
+            }
             for [h, y] in &seen {
-                if *g >= 0.0 && *h <= 0.0 {
-                    let at = if *g == *h { *z } else { (g * y - h * z) / (g - h) };
-                    let t = at / (c * c + d * d);
-                    ends = [ends[0].min(t), ends[1].max(t)];
+                for level in [-off, off] {
+                    let (g, h) = (g - level, h - level);
+                    if g > 0.0 && h < 0.0 {
+                        add((g * y - h * z) / (g - h));
+                    }
                 }
             }
         }
         (ends[0] <= ends[1]).then_some(ends)
     }
+
+    /// The greater of the two functions of a line with this direction at a point that is off the line by
+    /// 1, as [`Flat::extent`] measures it. A function is a coordinate less the slope times the one along
+    /// which the direction is greatest, both from a point of the line.
+    fn across(&self, [c, d]: [f64; 2]) -> f64 {
+        let direction = (self.axes[0] * c + self.axes[1] * d).to_array();
+        let off = ((self.axes[0] * d - self.axes[1] * c) / (c * c + d * d)).to_array();
+        let z = (0..3).fold(0, |z, k| if direction[k].abs() > direction[z].abs() { k } else { z });
+        (0..3).map(|k| (off[k] - direction[k] / direction[z] * off[z]).abs()).fold(0.0, f64::max)
+    }
 }
 
-/// Brackets reach no farther beyond the hull than those of crossings are wide, in ulp: lines come to its
-/// edges at angles whose sines are above 1/1000.
-const MOST: f64 = 64.0;
+/// Bound on the errors of both functions of a line, combined, and of the third coordinate, in roundings of
+/// the greatest coordinate `S` of points and origin, for weights from 1/2 to 2.
+///
+/// Relative to a cell's base, points times their weights are at most `4 S`, and with the origin `8 S`.
+/// So the errors of `View::new` are 18 for two coordinates of a point, 24 for two of the origin, 24 for the
+/// slope, which errs by three roundings, and 32 for its own roundings. `View::control_errors` adds 8 for the
+/// point's own roundings, divides by a weight of at least 1/2, and adds 58 for the weight's error: 270.
+/// The combination of two functions is `sqrt(2)` times that and the four roundings of each: 450.
+const ERROR: f64 = 512.0;
 
-/// Brackets of lines in the plane of a flat patch are within the hull of its control points but for some
-/// roundings, and a ray that ends before the hull meets nothing.
+/// A bracket is where the hull's combination of both functions is within their error `e` of 0 as
+/// computed, so within `2 e` truly. The combination is along the difference of two points that are at
+/// least half as far apart as any. If that is more than `12 e`, then it is along the plane but for an
+/// angle whose cosine is above 1/2, and both functions are within `4 e`. Otherwise all points are
+/// within `24 e` of zero, because neither function is certainly not zero.
+const WIDER: f64 = 24.0 * ERROR;
+
+/// Brackets of lines in the plane of a flat patch are within the hull of its control points but for the
+/// errors of rounding, and a ray that ends before the hull meets nothing.
 #[test]
 fn lines_in_the_plane_of_a_flat_patch_meet_it_within_its_hull() {
-    let (mut lines, mut uncertain, mut worst, mut early) = (0_u64, 0, 0.0_f64, 0);
+    let (mut lines, mut uncertain, mut early) = (0_u64, 0, 0_u64);
     for case in drawn(150) {
         let mut dice = crate::laws::dice(83, case);
         let Some(flat) = Flat::new(&mut dice) else { continue };
@@ -110,31 +142,33 @@ fn lines_in_the_plane_of_a_flat_patch_meet_it_within_its_hull() {
             let roots = all_roots(&*flat.surface, &ray);
             let told = || format!("{case}: {start:?} {direction:?} {roots:?} {ray:?}");
             lines += 1;
-            let Some([low, high]) = flat.extent(start, direction) else {
-                early += u64::from(!roots.is_empty());
+            let size = flat.surface.bounds().magnitude().max(ray.origin.to_vec().max_abs());
+            let off = WIDER * U * size / flat.across(direction);
+            let wider = flat.extent(start, direction, off);
+            let Some([low, high]) = wider.filter(|_| flat.extent(start, direction, 0.0).is_some()) else {
                 assert!(roots.is_empty(), "beside the hull: {}", told());
+                // Rounding cannot reach a hull from a line beside it.
+                assert!(wider.is_none(), "{}", told());
                 continue;
             };
-            let size = flat.surface.bounds().magnitude().max(ray.origin.to_vec().max_abs());
-            let unit = 2.0 * U * low.abs().max(high.abs()).max(size / d.max_abs());
+            let room = ERROR * U * low.abs().max(high.abs()).max(size / d.max_abs());
             for root in &roots {
                 uncertain += u64::from(root.kind != RootKind::Simple);
-                worst = worst.max((low - root.lo) / unit).max((root.hi - high) / unit);
+                assert!(root.lo >= low - room && root.hi <= high + room, "{low} to {high}: {}", told());
             }
             let far = low.abs().max(1.0);
             for k in (1..60).step_by(4) {
                 let t_max = low - far * durer_math::scale::pow2(-k);
                 let ray = Ray::new(ray.origin, d).with_range(-1e9, t_max);
-                if (low - t_max) / unit > MOST {
-                    early += u64::from(!all_roots(&*flat.surface, &ray).is_empty());
+                if t_max < low - room {
+                    assert!(all_roots(&*flat.surface, &ray).is_empty(), "up to {t_max}: {}", told());
+                    early += 1;
                 }
             }
         }
     }
-    println!("{lines} lines, {uncertain} uncertain, {worst} ulp, {early} early");
-    assert!(worst <= MOST, "{worst}");
-    assert_eq!(early, 0);
-    assert!(uncertain > 500);
+    println!("{lines} lines, {uncertain} uncertain, {early} that end early");
+    assert!(uncertain > 500 && early > 5000, "{uncertain} {early}");
     report(lines);
 }
 
