@@ -13,21 +13,14 @@ pub struct Finish {
     pub diffuse: f64,
     /// The fraction of light from behind that is scattered diffusely.
     pub diffuse_back: f64,
-    /// Whether `diffuse` is the albedo; then it is multiplied by `(brilliance + 1) / 2`.
-    pub diffuse_albedo: bool,
     /// The exponent of the cosine of the angle of incidence.
     pub brilliance: f64,
     /// The strength of Phong's highlight.
     pub phong: f64,
-    /// Whether `phong` is the albedo; then it is multiplied by `(phong_size + 1) / 2`.
-    pub phong_albedo: bool,
     /// The exponent of Phong's highlight.
     pub phong_size: f64,
     /// The strength of Blinn's highlight.
     pub specular: f64,
-    /// Whether `specular` is the albedo; then it is multiplied by `(n + 2) / (4 (2 - 2^(-n/2)))`,
-    /// where `n = 1 / roughness`.
-    pub specular_albedo: bool,
     /// The reciprocal of the exponent of Blinn's highlight; positive.
     pub roughness: f64,
     /// How much highlights take the pigment's colour, from 0 to 1.
@@ -49,13 +42,10 @@ impl Default for Finish {
             emission: Rgb::BLACK,
             diffuse: 0.6,
             diffuse_back: 0.0,
-            diffuse_albedo: false,
             brilliance: 1.0,
             phong: 0.0,
-            phong_albedo: false,
             phong_size: 40.0,
             specular: 0.0,
-            specular_albedo: false,
             roughness: 0.05,
             metallic: 0.0,
             crand: 0.0,

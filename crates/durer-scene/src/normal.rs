@@ -18,7 +18,7 @@ pub struct Normal {
     pub on_chart: bool,
     /// Where its whole texture is seen at the surface's texture coordinates: the placement by which the
     /// perturbation is turned, as that of other normals is by theirs. Without it the perturbation of a
-    /// normal on a chart is not turned.
+    /// normal on a chart is turned by its own placement only.
     pub turn: Option<Placement>,
 }
 

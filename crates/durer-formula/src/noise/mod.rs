@@ -278,7 +278,7 @@ impl<T: Grain> Sum<T> {
     /// The contributions of all corners of the one cell of all lanes, with their hashes.
     #[inline(always)]
     fn corners_of_one<L: Lattice>(lattice: L, along: &[Along<T>; 3], hashes: &[[u32; 1]; 8]) -> [Self; 8] {
-        let values = lattice.values(hashes.as_flattened().as_array().unwrap_or(&[0; 8]));
+        let values = lattice.values(&each_corner!(c => hashes[c][0]));
         each_corner!(c => values.splat(c).seen(along, c))
     }
 

@@ -1,5 +1,6 @@
 //! Finishes: how a surface reflects and scatters light.
 
+use durer_math::elementary;
 use durer_scene::NoiseGenerator;
 
 use crate::colour::Colour;
@@ -45,16 +46,11 @@ pub(crate) struct Finish {
     pub(crate) emission: [f64; 3],
     pub(crate) diffuse: f64,
     pub(crate) diffuse_back: f64,
-    /// Whether `albedo` was given: then the number is the total reflected light, not the curve's
-    /// maximum.
-    pub(crate) diffuse_albedo: bool,
     pub(crate) brilliance: f64,
     pub(crate) phong: f64,
     pub(crate) phong_size: f64,
-    pub(crate) phong_albedo: bool,
     pub(crate) specular: f64,
     pub(crate) roughness: f64,
-    pub(crate) specular_albedo: bool,
     pub(crate) metallic: f64,
     pub(crate) crand: f64,
     pub(crate) conserve_energy: bool,
@@ -75,14 +71,11 @@ impl Default for Finish {
             emission: [0.0; 3],
             diffuse: 0.6,
             diffuse_back: 0.0,
-            diffuse_albedo: false,
             brilliance: 1.0,
             phong: 0.0,
             phong_size: 40.0,
-            phong_albedo: false,
             specular: 0.0,
             roughness: 0.05,
-            specular_albedo: false,
             metallic: 0.0,
             crand: 0.0,
             conserve_energy: false,
@@ -90,6 +83,33 @@ impl Default for Finish {
             reflection: Reflection::default(),
             ior: None,
             caustics: None,
+        }
+    }
+}
+
+/// Which amounts of a `finish` block are albedos: the total reflected light, not the curve's maximum.
+#[derive(Default)]
+struct Albedo {
+    diffuse: bool,
+    phong: bool,
+    specular: bool,
+}
+
+impl Albedo {
+    /// Converts the amounts to maxima, at the end of the block and with the exponents of that time.
+    /// Blocks that change an exponent later leave the amounts as they are (a fact of the language).
+    fn convert(&self, finish: &mut Finish) {
+        if self.diffuse {
+            let factor = (finish.brilliance + 1.0) * 0.5;
+            finish.diffuse *= factor;
+            finish.diffuse_back *= factor;
+        }
+        if self.phong {
+            finish.phong *= (finish.phong_size + 1.0) * 0.5;
+        }
+        if self.specular {
+            let n = 1.0 / finish.roughness;
+            finish.specular *= (n + 2.0) / (4.0 * (2.0 - elementary::exp2(-n * 0.5)));
         }
     }
 }
@@ -103,11 +123,15 @@ impl Parser<'_> {
     pub(crate) fn finish_block(&mut self, base: &Finish) -> Result<Finish> {
         self.expect(Mark::BraceOpen)?;
         let mut finish = base.clone();
+        let mut albedo = Albedo::default();
         loop {
             let lexeme = self.next()?;
             let place = lexeme.place;
             let keyword = match &lexeme.item {
-                Item::Mark(Mark::BraceClose) => return Ok(finish),
+                Item::Mark(Mark::BraceClose) => {
+                    albedo.convert(&mut finish);
+                    return Ok(finish);
+                }
                 Item::Value(Value::Finish(known)) => {
                     finish = (**known).clone();
                     continue;
@@ -119,7 +143,7 @@ impl Parser<'_> {
                 Keyword::Ambient => finish.ambient = rgb(self.colour()?),
                 Keyword::Emission => finish.emission = rgb(self.colour()?),
                 Keyword::Diffuse => {
-                    finish.diffuse_albedo = self.take_word(Keyword::Albedo)?;
+                    albedo.diffuse = self.take_word(Keyword::Albedo)?;
                     finish.diffuse = self.float()?;
                     if self.take_mark(Mark::Comma)? {
                         finish.diffuse_back = self.float()?;
@@ -127,7 +151,7 @@ impl Parser<'_> {
                 }
                 Keyword::Brilliance => finish.brilliance = self.float()?,
                 Keyword::Phong => {
-                    finish.phong_albedo = self.take_word(Keyword::Albedo)?;
+                    albedo.phong = self.take_word(Keyword::Albedo)?;
                     finish.phong = self.float()?;
                 }
                 Keyword::PhongSize => {
@@ -137,7 +161,7 @@ impl Parser<'_> {
                     }
                 }
                 Keyword::Specular => {
-                    finish.specular_albedo = self.take_word(Keyword::Albedo)?;
+                    albedo.specular = self.take_word(Keyword::Albedo)?;
                     finish.specular = self.float()?;
                 }
                 Keyword::Roughness => {

@@ -79,25 +79,20 @@ pub(crate) struct View {
 
 impl Finish {
     pub(crate) fn new(f: &durer_scene::Finish, ambient_light: Rgb) -> Self {
-        let albedo = if f.diffuse_albedo { (f.brilliance + 1.0) * 0.5 } else { 1.0 };
-        let phong_albedo = if f.phong_albedo { (f.phong_size + 1.0) * 0.5 } else { 1.0 };
-        let n = 1.0 / f.roughness;
-        let specular_albedo =
-            if f.specular_albedo { (n + 2.0) / (4.0 * (2.0 - elementary::exp2(-n * 0.5))) } else { 1.0 };
         // Negative amounts count as zero (a fact of the scene language).
         let [diffuse, diffuse_back, phong, specular, metallic] =
             [f.diffuse, f.diffuse_back, f.phong, f.specular, f.metallic].map(|amount| amount.max(0.0));
         let mirror = f.reflection.as_ref().filter(|r| !(r.min.is_black() && r.max.is_black()));
         Self {
             own_light: f.ambient * ambient_light + f.emission,
-            diffuse: diffuse * albedo,
-            diffuse_back: diffuse_back * albedo,
+            diffuse,
+            diffuse_back,
             brilliance: Power::new(f.brilliance),
-            phong: phong * phong_albedo,
+            phong,
             phong_power: Power::new(f.phong_size),
             phong_end: if f.phong_size >= PHONG_SHARP { PHONG_END } else { 0.0 },
-            specular: specular * specular_albedo,
-            specular_power: Power::new(n),
+            specular,
+            specular_power: Power::new(1.0 / f.roughness),
             metallic,
             crand: f.crand,
             mirror: mirror.map(|r| {
@@ -263,16 +258,6 @@ mod tests {
     fn brilliance_is_an_exponent() {
         let f = ready(&durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, ..Default::default() });
         assert_eq!(scattered(&f, Vec3::new(0.0, 0.5, 0.0)), 0.0625);
-    }
-
-    #[test]
-    fn the_albedo_forms_scatter_what_they_say() {
-        // The integral of `k cos^b` over the hemisphere, with the cosine of projection, is
-        // `2 pi k / (b + 2)`; for plain diffuse light `b = 1`. The language's factor is (b + 1) / 2
-        // nevertheless.
-        let f =
-            durer_scene::Finish { brilliance: 3.0, diffuse: 0.5, diffuse_albedo: true, ..Default::default() };
-        assert_eq!(scattered(&ready(&f), Vec3::Y), 1.0);
     }
 
     #[test]

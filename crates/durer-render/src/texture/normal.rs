@@ -30,7 +30,7 @@ pub(crate) struct RenderNormal {
     turn: Option<Box<(Matrix3, Matrix3)>>,
     keeps_slope: bool,
     /// From normals of the world to those of the texture around it, if bumps keep their slope. Only the
-    /// scale within that texture counts (a fact of the scene language).
+    /// scale within that texture counts, on a chart only its own (facts of the scene language).
     outer: Option<Box<Matrix3>>,
     body: Body,
 }
@@ -74,15 +74,21 @@ impl RenderNormal {
             NormalBody::Push { warps, .. } | NormalBody::Picture { warps, .. } => warps,
             NormalBody::Normals(pattern) => warps_of(pattern),
         })?;
-        // On a chart a normal is not turned with its pattern, unless its whole texture is on the chart.
-        let turn = match &normal.turn {
-            Some(turn) => Some(before.then(turn.affine())?.then(around)?.then(outer)?),
-            None if on_chart => None,
-            None => Some(before.then(&local)?.then(outer)?),
+        // A normal on a chart is turned with its pattern, but not with what the pattern is part of, unless
+        // its whole texture is on the chart (a fact of the scene language).
+        let (turn, outer) = match &normal.turn {
+            Some(turn) => {
+                let turn = turn.affine().then(around)?.then(outer)?;
+                let outer = own.inverted()?.then(&turn)?;
+                (turn, outer)
+            }
+            None if on_chart => (own, Affine::IDENTITY),
+            None => (local.then(outer)?, *outer),
         };
         let outer = (normal.keeps_slope && outer.as_translation().is_none())
             .then(|| Box::new(transposed(&outer.linear())));
-        let turn = turn.filter(|turn| turn.as_translation().is_none()).map(|turn| {
+        let turn = before.then(&turn)?;
+        let turn = turn.as_translation().is_none().then(|| {
             let (linear, inverse) = (turn.linear(), turn.inverse_linear());
             Box::new((transposed(&linear), transposed(&inverse)))
         });

@@ -103,9 +103,10 @@ impl Stir {
         sum
     }
 
-    /// `D`, with arbitrary components along the axes along which the turbulence is 0.
-    fn vector(&self, p: Point3<F8>) -> Vec3<F8> {
-        let wanted = self.amount.to_array().map(|t| t != 0.0);
+    /// `D` along the first `axes` axes, where the turbulence is not 0; other components are arbitrary.
+    fn vector(&self, p: Point3<F8>, axes: usize) -> Vec3<F8> {
+        let amounts = self.amount.to_array();
+        let wanted = [0, 1, 2].map(|axis| axis < axes && amounts[axis] != 0.0);
         let mut sum = Vec3::splat(Vec3::ZERO);
         for &(weight, scale) in &self.octaves {
             sum += self.grains.vectors(p.to_vec() * F8::splat(scale), wanted) * F8::splat(weight);
@@ -116,7 +117,7 @@ impl Stir {
     /// `p + t D(p)`.
     pub(crate) fn moved(&self, p: Point3<F8>) -> Point3<F8> {
         let moved = |way: F8, amount: f64| if amount == 0.0 { F8::ZERO } else { way * amount };
-        let (d, t) = (self.vector(p), self.amount);
+        let (d, t) = (self.vector(p, 3), self.amount);
         p + Vec3::new(moved(d.x, t.x), moved(d.y, t.y), moved(d.z, t.z))
     }
 }
@@ -130,7 +131,7 @@ pub(super) fn marble(stir: Option<&Stir>, p: Point3<F8>) -> F8 {
 
 pub(super) fn wood(stir: Option<&Stir>, p: Point3<F8>, live: M8) -> F8 {
     let Some(stir) = stir else { return (p.x * p.x + p.y * p.y).sqrt() };
-    let (d, t) = (stir.vector(p), stir.amount);
+    let (d, t) = (stir.vector(p, 2), stir.amount);
     let along = |x: F8, d: F8, t: f64| {
         if t == 0.0 { x } else { x + each((x + d) * (TAU * t), live, elementary::sin) }
     };

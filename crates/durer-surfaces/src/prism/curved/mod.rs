@@ -44,7 +44,7 @@ use crate::{
 use core::cmp::Ordering;
 use durer_math::eft::{exponent, scale2};
 use durer_math::rounding::{mul_down, mul_up};
-use durer_math::{Aabb, Dyadic, Point3, Vec3};
+use durer_math::{Aabb, Dyadic, EFloat, Point3, Vec3};
 use durer_roots::quadratic::Quadratic;
 use forms::{Coordinate, Cut};
 use point::Wall;
@@ -160,8 +160,16 @@ impl CurvedPrism {
         let mut left = Vec::with_capacity(self.pieces.len());
         for outline in outlines {
             let own = left.len()..left.len() + outline.len();
-            let powers = self.pieces[own.clone()].iter().map(|piece| piece.in_powers(&self.view));
-            let turns_left = self_intersection::is_counter_clockwise(powers)?;
+            let pieces = &self.pieces[own.clone()];
+            let powers = |piece: &ProfileCurve| piece.in_powers::<EFloat>(&self.view);
+            let exact = |piece: &ProfileCurve| piece.in_powers::<Dyadic>(&self.view);
+            let turn = self_intersection::turn(pieces.iter().map(powers))
+                .or_else(|| self_intersection::turn(pieces.iter().map(exact)))?;
+            // Without an area, the outline has no inside.
+            if turn.is_eq() {
+                return None;
+            }
+            let turns_left = turn.is_gt();
             // Is it within an odd number of the others?
             let [x, z] = outline[0][0];
             let start = LocalPoint::new(Point3::new(x, 1.0, z));

@@ -8,7 +8,8 @@
 
 use super::spline::Bezier;
 use crate::prism::outline::Point;
-use durer_math::{Dyadic, U};
+use core::cmp::Ordering;
+use durer_math::{Ring, U};
 
 /// With more pairs of arcs than this the curves count as meeting.
 const MOST_PAIRS: usize = 1 << 20;
@@ -174,20 +175,22 @@ pub(super) fn are_simple(outlines: &[Vec<Bezier>]) -> bool {
     true
 }
 
-/// Whether a closed curve that does not meet itself goes round counter-clockwise, with x to the
-/// right and z up; `None` if it has no area.
+/// The sign of the area within a closed curve that does not meet itself, with x to the right and z up:
+/// positive if it goes round counter-clockwise. `None` if the numbers leave it open.
 ///
 /// Twice the area is the integral of `x z' - z x'`; the factors are those of the powers of `y`,
 /// integrated from -1/2 to 1/2, times 240.
-pub(super) fn is_counter_clockwise(powers: impl Iterator<Item = [[Dyadic; 2]; 4]>) -> Option<bool> {
-    let area = powers.fold(Dyadic::ZERO, |sum, p| {
-        let minor = |i: usize, j: usize| &(&p[i][0] * &p[j][1]) - &(&p[j][0] * &p[i][1]);
+pub(super) fn turn<T: Ring>(powers: impl Iterator<Item = [[T; 2]; 4]>) -> Option<Ordering> {
+    let area = powers.fold(T::exact(0.0), |sum, p| {
+        let minor = |i: usize, j: usize| {
+            let of = |a: usize, b: usize| p[a][0].clone() * p[b][1].clone();
+            of(i, j) - of(j, i)
+        };
         [(0, 1, 240.0), (0, 3, 60.0), (1, 2, 20.0), (2, 3, 3.0)]
             .iter()
-            .fold(sum, |sum, &(i, j, times)| &sum + &(&minor(i, j) * &Dyadic::from(times)))
+            .fold(sum, |sum, &(i, j, times)| sum + minor(i, j) * T::exact(times))
     });
-    let sign = area.exact_sign();
-    sign.is_ne().then_some(sign.is_gt())
+    area.sign()
 }
 
 #[cfg(test)]
