@@ -149,6 +149,11 @@ impl<'w> Lamps<'w> {
             }
         }
         self.fall(isa, lamp, None, how.1, spots);
+        // Outside the beam of the light's middle its other points have no shadows, unless it shines through
+        // an object (a fact of the scene language).
+        if lamp.through.is_some() {
+            self.falling.iter_mut().for_each(|falling| falling.blockable = M8::ALL);
+        }
         self.unblocked.clear();
         let places = self.shadows.places(spots.len());
         for (((to, light), falling), spot) in places.zip(sums).zip(&self.falling).zip(&*spots) {
@@ -193,11 +198,12 @@ impl<'w> Lamps<'w> {
                 if !rays.live.any() {
                     continue;
                 }
-                let (to, blockable) =
+                let (to, way, blockable) =
                     lamp.target((area, number), spots[i].hits.p, lamps.falling[i].at.to_light);
                 (*target, rays.live) = (to, rays.live & blockable);
-                let (origin, back) = spots[i].hits.start_towards(*target - spots[i].hits.p);
-                (rays.origin, rays.direction) = (origin, *target - origin);
+                let (origin, back) = spots[i].hits.start_towards(way);
+                let direction = if lamp.parallel { way } else { *target - origin };
+                (rays.origin, rays.direction) = (origin, direction);
                 (rays.t_max, rays.source) = (F8::ONE, spots[i].hits.sources(back));
             }
             if let Some(through) = &lamp.through {

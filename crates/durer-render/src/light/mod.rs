@@ -128,11 +128,12 @@ impl RenderLight {
                 .filter(|fade| fade.power > 0.0 && fade.distance.abs() > NO_DISTANCE)
                 .map(|fade| (fade.distance, Power::new(fade.power))),
             end: None,
-            // Without shadows the points of an area differ only in what they shine through.
+            // Without shadows the points of an area differ only in what they shine through, unless each
+            // lights surfaces.
             area: light
                 .area
                 .as_ref()
-                .filter(|_| !light.shadowless || light.through.is_some())
+                .filter(|area| !light.shadowless || light.through.is_some() || area.illuminates)
                 .and_then(Area::new),
             illuminates: light.area.as_ref().is_some_and(|area| area.illuminates),
             through,
@@ -166,21 +167,23 @@ impl RenderLight {
         self.at_from(location, axis, p, live)
     }
 
-    /// The end of shadow rays from some points to one point of its area, and the points whose way to
-    /// it can be blocked.
+    /// The ends of shadow rays from some points to one point of its area, the ways there, and the points
+    /// whose ways can be blocked. The ways of parallel light are exactly along it: from a surface that it
+    /// only grazes they do not cross that surface.
     #[inline(always)]
     pub(crate) fn target(
         &self,
         (area, number): (&Area, usize),
         p: Point3<F8>,
         to_light: Vec3<F8>,
-    ) -> (Point3<F8>, M8) {
+    ) -> (Point3<F8>, Vec3<F8>, M8) {
         let (location, axis) = self.point_of(area, number, to_light);
         if !self.parallel {
-            return (location.to_point(), M8::ALL);
+            return (location.to_point(), location - p.to_vec(), M8::ALL);
         }
         let depth = dot(p.to_vec() - location, axis);
-        ((p.to_vec() - axis * depth).to_point(), (F8::ZERO).lt(depth))
+        let way = axis * -depth;
+        ((p.to_vec() + way).to_point(), way, (F8::ZERO).lt(depth))
     }
 
     /// The location and axis of one point of its area, for points that are lit from some directions.
