@@ -149,9 +149,8 @@ impl<'w> Lamps<'w> {
             }
         }
         self.fall(isa, lamp, None, how.1, spots);
-        // Outside the beam of the light's middle its other points have no shadows, unless it shines through
-        // an object (a fact of the scene language).
-        if lamp.through.is_some() {
+        // Outside the beam of the light's middle, too, the light of its points can be blocked.
+        if !lamp.shadowless || lamp.through.is_some() {
             self.falling.iter_mut().for_each(|falling| falling.blockable = M8::ALL);
         }
         self.unblocked.clear();

@@ -4,6 +4,10 @@ use crate::vector::{dot, length};
 use durer_math::{F8, Vec3};
 use durer_scene::AreaLight;
 
+/// The points of a round light lie aside by this fraction of its sides, before the square becomes a disc (a fact of
+/// the scene language).
+const ASIDE: f64 = 0.001;
+
 /// The points of an area light.
 #[derive(Clone, Debug)]
 pub(crate) struct Area {
@@ -54,6 +58,8 @@ impl Area {
         if columns * rows <= 1 {
             return None;
         }
+        // A light that turns towards the points is round, too, unless it is a row.
+        let is_round = (area.circular || area.orient) && columns > 1 && rows > 1;
         let mut walk = Vec::new();
         let grid = Cells { columns, depth: 0, adaptive: area.adaptive.unwrap_or(u32::MAX) };
         grid.divide([0, 0, columns - 1, rows - 1], 0.25, &mut walk);
@@ -69,7 +75,7 @@ impl Area {
                 _ => f64::from(number) / f64::from(of - 1) - 0.5,
             };
             let (u, v) = (at(number % columns, columns), at(number / columns, rows));
-            points.push(Point { at: if area.circular { on_disc(u, v) } else { (u, v) }, weight });
+            points.push(Point { at: if is_round { on_disc(u + ASIDE, v + ASIDE) } else { (u, v) }, weight });
         }
         if !walk.iter().any(|part| part.divides == Divides::WhereCornersDiffer) {
             walk.clear();
@@ -97,12 +103,13 @@ impl Area {
     #[inline(always)]
     pub(crate) fn offset(&self, number: usize, to_light: Vec3<F8>) -> Vec3<F8> {
         let (u, v) = self.points[number].at;
-        let [a, b] = self.sides;
+        let [first, second] = self.sides;
         if !self.orient {
-            return Vec3::<F8>::splat(a * u + b * v);
+            return Vec3::<F8>::splat(first * u + second * v);
         }
+        // The first side alone gives the size.
         let (across, up) = around(to_light);
-        across * F8::splat(u * length(a)) + up * F8::splat(v * length(b))
+        (across * F8::splat(u) + up * F8::splat(v)) * F8::splat(length(first))
     }
 }
 
@@ -148,12 +155,13 @@ impl Cells {
     }
 }
 
-/// Two unit vectors across a direction and each other; the first one is across z, too (a fact of
-/// the language, seen in the shadows of POV-Ray's lights of one row).
+/// Two unit vectors across a direction and each other; the first one is across z, too.
+///
+/// A fact of the language: highlights of a smooth floor under POV-Ray's lights show all points.
 fn around(d: Vec3<F8>) -> (Vec3<F8>, Vec3<F8>) {
     let along_z = F8::splat(0.99).lt(d.z.abs());
     let helper = along_z.select3(Vec3::<F8>::splat(Vec3::Y), Vec3::<F8>::splat(Vec3::Z));
-    let across = cross(helper, d);
+    let across = cross(d, helper);
     let across = across * (F8::ONE / dot(across, across).sqrt());
     (across, cross(d, across))
 }
@@ -225,6 +233,33 @@ mod tests {
         assert_eq!((parts.len(), parts[0]), (21, first));
         assert_eq!((parts[1].divides, parts[1].next), (Divides::WhereCornersDiffer, 6));
         assert_eq!((parts[2].divides, parts[2].next), (Divides::Never, 3));
+    }
+
+    /// Points measured with POV-Ray, as highlights on a floor under the light, which lie below its points.
+    #[test]
+    fn points_of_round_lights_are_those_of_the_scene_language() {
+        let light = AreaLight {
+            sides: [Vec3::X * 3.0, Vec3::Z * 2.0],
+            points: [2, 2],
+            circular: true,
+            orient: false,
+            adaptive: None,
+            illuminates: true,
+        };
+        let at = |light: AreaLight, number, from: Vec3| {
+            let offset = Area::new(&light).unwrap().offset(number, Vec3::<F8>::splat(from)).lane(0);
+            [offset.x, offset.y, offset.z].map(|x| (x * 1e4).round() / 1e4)
+        };
+        let square = AreaLight { sides: [Vec3::X * 3.0, Vec3::Z * 3.0], ..light };
+        assert_eq!(at(square, 0, Vec3::Y), [-1.0585, 0.0, -1.0585]);
+        assert_eq!(at(square, 1, Vec3::Y), [1.0649, 0.0, -1.0607]);
+        assert_eq!(at(square, 3, Vec3::Y), [1.0628, 0.0, 1.0628]);
+        let row = AreaLight { points: [2, 1], circular: false, ..light };
+        assert_eq!(at(row, 1, Vec3::Y), [1.5, 0.0, 0.0]);
+        // Turned lights are round, and their second side has the length of the first one.
+        let turned = AreaLight { circular: false, orient: true, ..light };
+        assert_eq!(at(turned, 0, Vec3::Y), [-1.0585, 0.0, 1.0585]);
+        assert_eq!(at(turned, 0, Vec3::Z), [1.0585, 1.0585, 0.0]);
     }
 
     #[test]

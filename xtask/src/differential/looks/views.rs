@@ -117,17 +117,17 @@ impl Maker {
     fn area(&mut self) -> Node {
         let (a, b) = (self.r.number(0.5, 2.0), self.r.number(0.5, 2.0));
         let count = self.r.below(4) + 2;
-        // Circles are made of squares.
         let other = if self.r.chance(60) { count } else { self.r.below(5) + 1 };
         let mut words = format!("area_light {a}*x, {b}*z, {count}, {other}");
         if self.r.chance(40) {
             words += &format!(" adaptive {}", self.r.below(3));
         }
-        if other == count && self.r.chance(40) {
+        // A row cannot be bent to a disc.
+        if other > 1 && self.r.chance(40) {
             words += " circular";
-            if self.r.chance(60) {
-                words = words.replacen(&format!("{b}*z"), &format!("{a}*z"), 1) + " orient";
-            }
+        }
+        if self.r.chance(30) {
+            words += " orient";
         }
         if self.r.chance(25) {
             words += " area_illumination on";
