@@ -84,7 +84,6 @@ impl Parser<'_> {
     pub(crate) fn fog_block(&mut self) -> Result<Rc<Fog>> {
         self.expect(Mark::BraceOpen)?;
         let mut fog = Fog::default();
-        fog.turbulence.generator = self.language.noise_generator();
         loop {
             let place = {
                 self.peek()?;

@@ -81,6 +81,8 @@ enum Setting {
     Sky([f64; 3]),
     Location([f64; 3]),
     LookAt([f64; 3], Place),
+    /// `orthographic`, in old scenes only.
+    Orthographic,
 }
 
 impl Setting {
@@ -94,6 +96,7 @@ impl Setting {
             Self::Sky(_) => 4,
             Self::Location(_) => 5,
             Self::LookAt(..) => 6,
+            Self::Orthographic => 7,
         }
     }
 }
@@ -153,6 +156,14 @@ impl Camera {
         for vector in [&mut self.direction, &mut self.right, &mut self.up, &mut self.sky] {
             *vector = by.direction(*vector);
         }
+    }
+
+    /// Sizes the orthographic picture so that it shows the same at `look_at` as the perspective one.
+    fn size_as_at_look_at(&mut self) {
+        let away = std::array::from_fn(|i| self.look_at[i] - self.location[i]);
+        let by = length(away) / length(self.direction);
+        self.right = scaled(self.right, by);
+        self.up = scaled(self.up, by);
     }
 
     /// Applies `angle`: the horizontal angle of view determines the length of `direction`.
@@ -231,7 +242,10 @@ impl Parser<'_> {
                 }
                 Item::Word(Keyword::Orthographic) => {
                     camera.projection = Projection::Orthographic;
-                    continue;
+                    if !self.applies_in_written_order() {
+                        continue;
+                    }
+                    Setting::Orthographic
                 }
                 Item::Word(Keyword::Fisheye) => {
                     camera.projection = Projection::Fisheye;
@@ -355,18 +369,14 @@ impl Parser<'_> {
                 Setting::LookAt(target, place) => {
                     camera.look_at(target).map_err(|text| Error::invalid(place, text))?;
                 }
+                Setting::Orthographic => camera.size_as_at_look_at(),
             }
         }
-        // Sizes the orthographic picture so that it shows the same at `look_at` as the perspective
-        // one.
         if camera.projection == Projection::Orthographic
             && (angled || !sized)
             && !self.applies_in_written_order()
         {
-            let away = std::array::from_fn(|i| camera.look_at[i] - camera.location[i]);
-            let by = length(away) / length(camera.direction);
-            camera.right = scaled(camera.right, by);
-            camera.up = scaled(camera.up, by);
+            camera.size_as_at_look_at();
         }
         Ok(())
     }

@@ -43,6 +43,9 @@ impl Parser<'_> {
             None if local => self.scopes.local(name, value),
             None => self.scopes.declare(name, value),
         }
+        if self.declaring.is_none() {
+            self.skip_spare_semicolon();
+        }
         self.check_memory(0, place)
     }
 
@@ -90,14 +93,16 @@ impl Parser<'_> {
     /// Reads the value of a declaration. Also returns whether its semicolon was taken, which only
     /// numbers need.
     fn declared_value(&mut self) -> Result<(Value, bool)> {
+        let outer = self.begin_value();
         let value = self.value("a value to declare")?;
+        self.unended = outer;
         let is_number = matches!(value, Value::Number(_));
         let is_ended = if is_number || self.has_peeked() {
             self.take_mark(Mark::Semicolon)?
         } else {
             self.take_raw_mark(Mark::Semicolon)
         };
-        if is_number && !is_ended {
+        if is_number && !is_ended && !self.language.may_omit_semicolons() {
             let text = "a declaration of a float, vector or colour ends with `;`";
             return Err(Error::invalid(self.here(), text));
         }
@@ -189,8 +194,9 @@ impl Parser<'_> {
             self.colour_parts(&mut colour)?;
             return Ok(Value::Number(crate::value::Terms::new(&colour)));
         }
-        for &part in terms.as_slice() {
-            crate::expression::finite(part, place)?;
+        // An infinite number is an error only where it is used.
+        if let Some(part) = terms.as_slice().iter().find(|part| part.is_nan()) {
+            crate::expression::finite(*part, place)?;
         }
         Ok(Value::Number(terms))
     }

@@ -160,12 +160,12 @@ impl Parser<'_> {
                     self.next()?;
                     let place = self.here();
                     let right = self.operand()?;
-                    let divides = |b: &f64| *b != 0.0;
-                    if !right.as_slice().iter().all(divides) {
-                        return Err(Error::invalid(place, "division by zero"));
+                    // A fact of the language, and a short divisor is padded with zeros.
+                    let divides = left.zip(right, |_, b| f64::from(u8::from(b != 0.0)));
+                    left = left.zip(right, |a, b| if b == 0.0 { f64::INFINITY } else { a / b });
+                    if divides.as_slice().contains(&0.0) {
+                        self.notice(place, "division by zero gives an infinite number");
                     }
-                    // Division by zero gives 0, because a short divisor is padded with zeros.
-                    left = left.zip(right, |a, b| if b == 0.0 { 0.0 } else { a / b });
                 }
                 _ => return Ok(left),
             }
@@ -182,6 +182,7 @@ impl Parser<'_> {
         if let Some(mark) = sign {
             self.next()?;
             let value = self.nested(Self::operand)?;
+            self.end_value();
             return Ok(match mark {
                 Mark::Minus => value.map(|v| -v),
                 Mark::Not => value.map(|v| f64::from(u8::from(!crate::directives::truth(v)))),
@@ -189,10 +190,12 @@ impl Parser<'_> {
             });
         }
         let mut value = self.primary()?;
+        self.end_value();
         // Looks for a dot without running what follows: `#version 3.7 #end` must not run its #end
         // here.
         while self.dot_follows()? {
             value = self.part_of(value)?;
+            self.end_value();
         }
         Ok(value)
     }

@@ -5,6 +5,7 @@
 //! floats, parameters, the float functions, and calls of functions declared before. Calls are
 //! expanded in place, so the result contains no calls.
 
+use std::borrow::Cow;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -237,14 +238,30 @@ impl Parser<'_> {
         self.expect(Mark::ParenOpen)?;
         let number = self.float()?;
         self.expect(Mark::ParenClose)?;
-        self.language.noise_is_used |= number == formulas::PLAIN_NOISE;
+        self.made_internal_function(number, place)
+    }
+
+    /// A function that the scene calls; the noise itself follows the scene's generator.
+    fn as_of_now<'c>(&mut self, called: &'c Called, place: Place) -> Result<Cow<'c, Called>> {
+        match called.scene_noise {
+            Some(made) if made != self.language.noise_generator() => {
+                self.made_internal_function(formulas::PLAIN_NOISE, place).map(Cow::Owned)
+            }
+            _ => Ok(Cow::Borrowed(called)),
+        }
+    }
+
+    fn made_internal_function(&mut self, number: f64, place: Place) -> Result<Called> {
+        let is_plain = number == formulas::PLAIN_NOISE;
         let tables = self.noise_tables();
         let rows = tables.map_or_else(NoiseTable::own_rows, |tables| tables.rows);
-        match formulas::internal(number, self.language.noise_generator(), rows) {
+        let generator = self.language.noise_generator();
+        match formulas::internal(number, generator, rows) {
             Ok((formula, noisy)) => {
                 let table = tables.map(|tables| tables.components[0]);
                 let mut called = Called::from(formula.with_noise(table));
                 called.noisy = noisy;
+                called.scene_noise = is_plain.then_some(generator);
                 Ok(called)
             }
             Err(Lacking::Unknown) => {
@@ -403,6 +420,8 @@ impl Parser<'_> {
 
     fn call_formula(&mut self, draft: &mut Draft, called: &Called, place: Place) -> Result<NodeId> {
         let arguments = self.formula_arguments(draft)?;
+        self.language.noise_is_used |= called.scene_noise.is_some();
+        let called = &*self.as_of_now(called, place)?;
         let number = |&id| draft.function.constant_value(id).map(Interval::mid);
         let numbers: Vec<Option<f64>> = arguments.iter().map(number).collect();
         called.check(&numbers, place)?;
@@ -416,13 +435,18 @@ impl Parser<'_> {
         if !self.take_mark(Mark::Dot)? {
             return Err(vector_function::wants_part(place));
         }
-        let lexeme = self.next()?;
-        let Item::Word(word) = lexeme.item else {
-            return Err(self.unexpected(&lexeme, "a part such as x, y, z or red after the dot"));
+        let is_height = self.small_word("hf")?;
+        let (found, place) = if is_height {
+            (function.height(), self.here())
+        } else {
+            let lexeme = self.next()?;
+            let Item::Word(word) = lexeme.item else {
+                return Err(self.unexpected(&lexeme, "a part such as x, y, z or red after the dot"));
+            };
+            (function.part(word), lexeme.place)
         };
-        let Some(weights) = function.part(word) else {
-            return Err(Error::invalid(lexeme.place, "this value has no such part"));
-        };
+        let no_such_part = || Error::invalid(place, "this value has no such part");
+        let weights = found.ok_or_else(no_such_part)?;
         let mut sum = None;
         for &(weight, part) in &weights {
             let mut value = draft.function.call(part, &arguments).map_err(too_long(place))?;
@@ -435,7 +459,7 @@ impl Parser<'_> {
                 None => value,
             });
         }
-        sum.ok_or_else(|| Error::invalid(lexeme.place, "this value has no such part"))
+        sum.ok_or_else(no_such_part)
     }
 
     /// Reads a word of the language inside a function.
@@ -584,6 +608,7 @@ impl Parser<'_> {
     /// Evaluates a function that is called where a float is wanted, after its name.
     pub(crate) fn called_formula(&mut self, called: &Rc<Called>, place: Place) -> Result<Terms> {
         let arguments = self.float_arguments()?;
+        let called = &*self.as_of_now(called, place)?;
         let numbers: Vec<Option<f64>> = arguments.iter().copied().map(Some).collect();
         called.check(&numbers, place)?;
         self.count_steps(called.steps() as u64, place)?;

@@ -88,8 +88,10 @@ pub(crate) struct Turbulence {
     pub(crate) omega: f64,
     /// The amount of turbulence in agate.
     pub(crate) agate: f64,
-    /// The noise generator.
-    pub(crate) generator: f64,
+    /// The noise generator; `None` for the scene's, as it is at the end of the text.
+    pub(crate) generator: Option<NoiseGenerator>,
+    /// The scene's noise generator where this is read.
+    pub(crate) scene_generator: NoiseGenerator,
     /// The noise, if it is not durer's own.
     pub(crate) tables: Option<NoiseTables>,
 }
@@ -111,7 +113,8 @@ impl Default for Turbulence {
             lambda: 2.0,
             omega: 0.5,
             agate: 1.0,
-            generator: 2.0,
+            generator: None,
+            scene_generator: NoiseGenerator::default(),
             tables: None,
         }
     }
@@ -129,12 +132,13 @@ impl Turbulence {
         durer_scene::Turbulence {
             amount: durer_math::Vec3::new(x, y, z),
             octaves: Octaves { count, lambda, omega },
-            generator: self.generator(),
+            generator: self.generator,
         }
     }
 
-    pub(crate) fn generator(&self) -> NoiseGenerator {
-        NoiseGenerator::numbered(self.generator)
+    /// The generator in functions, which are finished where they are read.
+    fn generator_here(&self) -> NoiseGenerator {
+        self.generator.unwrap_or(self.scene_generator)
     }
 
     fn octaves(&self) -> u32 {
@@ -191,7 +195,7 @@ impl Draft<'_> {
 
     /// `N`.
     fn noise(&mut self, p: [NodeId; 3]) -> Made<NodeId> {
-        match self.turbulence.generator() {
+        match self.turbulence.generator_here() {
             NoiseGenerator::First => self.text(FIRST, p, &[]),
             NoiseGenerator::Second => self.text(SECOND, p, &[]),
             NoiseGenerator::Third => {
@@ -204,7 +208,7 @@ impl Draft<'_> {
     /// `m`; without the clamp if `is_kept` is false.
     fn grain(&mut self, p: [NodeId; 3], is_kept: bool) -> Made<NodeId> {
         let noise = self.noise(p)?;
-        if self.turbulence.generator() == NoiseGenerator::First {
+        if self.turbulence.generator_here() == NoiseGenerator::First {
             return Some(noise);
         }
         let text = if is_kept { "max(min(2*P0 - 0.5, 1), 0)" } else { "2*P0 - 0.5" };

@@ -79,7 +79,7 @@ fn push_of(own: &Normal) -> Option<scene::Push> {
     match kind {
         PatternKind::Written(Keyword::Bumps, _) => Some(scene::Push::Bumps),
         PatternKind::Written(Keyword::Dents, _) => {
-            Some(scene::Push::Dents { generator: own.modifiers.turbulence.generator() })
+            Some(scene::Push::Dents { generator: own.modifiers.turbulence.generator })
         }
         PatternKind::Written(Keyword::Wrinkles, _) => Some(scene::Push::Wrinkles),
         PatternKind::Written(Keyword::Ripples, _) => Some(ripples(false)),

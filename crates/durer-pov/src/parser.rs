@@ -65,6 +65,13 @@ pub(crate) struct Frame {
     pub(crate) from: Option<(Option<Name>, Place)>,
 }
 
+/// A declaration of a number that may end without a semicolon: where its value is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Unended {
+    nesting: u64,
+    frame: u64,
+}
+
 /// The reader of one scene.
 pub(crate) struct Parser<'a> {
     pub(crate) options: &'a ReadOptions,
@@ -76,6 +83,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) scopes: Scopes,
     /// The name that the current declaration will declare.
     pub(crate) declaring: Option<Name>,
+    /// The declaration that is being read, if it may end without a semicolon.
+    pub(crate) unended: Option<Unended>,
     pub(crate) messages: Messages<'a>,
     peeked: Option<Lexeme>,
     last: Place,
@@ -111,6 +120,7 @@ impl<'a> Parser<'a> {
             frames: Vec::new(),
             scopes: Scopes::default(),
             declaring: None,
+            unended: None,
             messages,
             peeked: None,
             last: Place::default(),
@@ -259,6 +269,17 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// Skips a further semicolon behind a declaration, also where the declaration ends its file or macro: then the
+    /// semicolon stands behind the include or the call (a fact of the language).
+    pub(crate) fn skip_spare_semicolon(&mut self) {
+        while !self.has_peeked() && self.raw().is_none() {
+            if !self.leave_frame() {
+                return;
+            }
+        }
+        self.take_raw_mark(Mark::Semicolon);
+    }
+
     /// The macro calls and includes that led here, innermost first.
     pub(crate) fn route(&self) -> Vec<(String, Place)> {
         let step = |frame: &Frame| {
@@ -301,6 +322,27 @@ impl<'a> Parser<'a> {
     /// The next token of the innermost frame, without running, expanding or taking it.
     pub(crate) fn raw(&self) -> Option<Kind> {
         self.raw_ahead(0)
+    }
+
+    /// Begins the value of a declaration one nesting level deeper. In old versions of the language it may end
+    /// without a semicolon.
+    pub(crate) fn begin_value(&mut self) -> Option<Unended> {
+        let frame = self.frames.last().map_or(0, |frame| frame.serial);
+        let begun = Unended { nesting: self.nesting + 1, frame };
+        std::mem::replace(&mut self.unended, self.language.may_omit_semicolons().then_some(begun))
+    }
+
+    /// Called behind an operand: puts the semicolon that a declaration lacks before a directive or the end of a
+    /// macro, so that the name has its value when what follows runs.
+    pub(crate) fn end_value(&mut self) {
+        let Some(frame) = self.frames.last() else { return };
+        let here = Unended { nesting: self.nesting, frame: frame.serial };
+        if self.unended != Some(here) || self.peeked.is_some() {
+            return;
+        }
+        if matches!(self.raw(), None | Some(Kind::Directive(..))) {
+            self.peeked = Some(Lexeme { item: Item::Mark(Mark::Semicolon), place: self.last });
+        }
     }
 
     /// The token `ahead` tokens after [`Parser::raw`].

@@ -10,12 +10,15 @@ use std::sync::Arc;
 
 use durer_formula::{Builder, Formula, FormulaError, NodeId};
 use durer_math::Interval;
-use durer_render::FunctionValues;
-use durer_scene::{LearnedNoise, SampledFunction, Settings, TextureSample, TextureSource};
+use durer_render::{FunctionValues, PigmentColours};
+use durer_scene::{LearnedNoise, NoiseGenerator, SampledFunction, Settings, TextureSample, TextureSource};
 
+use crate::diagnostics::{Error, Place, Result as Read};
 use crate::formulas::Noisy;
 use crate::noise_pattern::NoiseTables;
 use crate::parser::Parser;
+use crate::texture::Pigment;
+use crate::texture_builder;
 
 /// The number of the first input that stands for a texture while a function is read: more than the
 /// parameters and the variables of loops that a function can have.
@@ -30,6 +33,8 @@ pub(crate) struct Called {
     samples: Vec<Sample>,
     /// The noise function, if it is one whose arguments must be checked.
     pub(crate) noisy: Option<Noisy>,
+    /// The generator of the scene with which it was made, if it is the noise itself.
+    pub(crate) scene_noise: Option<NoiseGenerator>,
     prepared: OnceCell<Option<Rc<FunctionValues>>>,
 }
 
@@ -38,8 +43,8 @@ pub(crate) struct Called {
 pub(crate) struct TextureContext<'a> {
     /// The noise, if it is not durer's own.
     pub(crate) noise: Option<&'a Arc<LearnedNoise>>,
-    /// The number of centres of waves.
-    pub(crate) waves: u32,
+    /// The settings of the scene.
+    pub(crate) settings: Settings,
 }
 
 /// A number of a texture.
@@ -53,7 +58,14 @@ struct Sample {
 impl From<Formula> for Called {
     fn from(formula: Formula) -> Self {
         let inputs = formula.inputs();
-        Self { formula, inputs, samples: Vec::new(), noisy: None, prepared: OnceCell::new() }
+        Self {
+            formula,
+            inputs,
+            samples: Vec::new(),
+            noisy: None,
+            scene_noise: None,
+            prepared: OnceCell::new(),
+        }
     }
 }
 
@@ -134,10 +146,8 @@ impl Called {
 
     /// The function with its textures prepared; `None` if a texture's placement cannot be undone.
     pub(crate) fn prepared(&self, context: TextureContext) -> Option<Rc<FunctionValues>> {
-        let prepare = || {
-            let settings = Settings { number_of_waves: context.waves, ..Settings::default() };
-            FunctionValues::new(&self.scene(), context.noise, &settings).ok().map(Rc::new)
-        };
+        let prepare =
+            || FunctionValues::new(&self.scene(), context.noise, &context.settings).ok().map(Rc::new);
         self.prepared.get_or_init(prepare).clone()
     }
 }
@@ -145,7 +155,19 @@ impl Called {
 impl Parser<'_> {
     /// The noise and the settings of the scene's textures, as far as the scene is read.
     pub(crate) fn texture_context(&self) -> TextureContext<'_> {
-        TextureContext { noise: self.options.noise.as_ref(), waves: self.scene.globals.number_of_waves }
+        let settings = Settings {
+            number_of_waves: self.scene.globals.number_of_waves,
+            noise_generator: self.language.noise_generator(),
+            ..Settings::default()
+        };
+        TextureContext { noise: self.options.noise.as_ref(), settings }
+    }
+
+    /// The colours of a pigment, prepared with the noise and the settings of the scene as far as it is read.
+    pub(crate) fn pigment_colours(&self, pigment: &Pigment, place: Place) -> Read<PigmentColours> {
+        let TextureContext { noise, settings } = self.texture_context();
+        let made = texture_builder::pigment(pigment, place)?;
+        PigmentColours::new(&made, noise, &settings).map_err(|error| Error::invalid(place, error.to_string()))
     }
 
     /// The components of the noise, if it is not durer's own.
@@ -224,7 +246,7 @@ impl Draft {
             samples.push(Sample { data, exact: sample.exact.clone() });
         }
         let formula = renumbered(&formula, inputs, samples.len())?;
-        Ok(Called { formula, inputs, samples, noisy: None, prepared: OnceCell::new() })
+        Ok(Called { formula, inputs, samples, noisy: None, scene_noise: None, prepared: OnceCell::new() })
     }
 }
 
@@ -278,7 +300,10 @@ mod tests {
         let function = draft.finish(sum, 2).unwrap();
         assert_eq!((function.inputs(), function.samples.len()), (2, 2));
         assert!(
-            (function.value(&[0.25, 3.0], TextureContext { noise: None, waves: 10 }) - 1.0).abs() < 1e-12
+            (function.value(&[0.25, 3.0], TextureContext { noise: None, settings: Settings::default() })
+                - 1.0)
+                .abs()
+                < 1e-12
         );
         let exact = function.exact().unwrap().unwrap();
         assert_eq!(exact.inputs(), 2);

@@ -411,6 +411,7 @@ impl Parser<'_> {
                 adc_bailout: globals.adc_bailout,
                 ambient_light: rgb(globals.ambient_light),
                 number_of_waves: globals.number_of_waves,
+                noise_generator: self.language.noise_generator(),
             },
         })
     }
@@ -457,18 +458,22 @@ fn inside(object: &Object) -> Option<scene::Interior> {
     let Some(Texture::Layers(layers)) = object.texture.as_deref() else { return own };
     let ior = layers.iter().find_map(|layer| layer.finish.ior);
     let caustics = layers.iter().find_map(|layer| layer.finish.caustics);
-    if ior.is_none() && caustics.is_none() {
+    // That of the outermost layer counts, and it counts without an index of refraction, too.
+    let refraction = layers.last().map_or(1.0, |layer| layer.finish.refraction);
+    if ior.is_none() && caustics.is_none() && refraction == 1.0 {
         return own;
     }
     let mut made = own.unwrap_or_else(|| filling(&Interior::default()));
     made.ior = ior.unwrap_or(made.ior);
     made.caustics = caustics.unwrap_or(made.caustics);
+    made.refraction = refraction;
     Some(made)
 }
 
 fn filling(interior: &Interior) -> scene::Interior {
     scene::Interior {
         ior: interior.ior,
+        refraction: 1.0,
         fade_distance: interior.fade_distance,
         fade_power: interior.fade_power,
         fade_color: rgb(interior.fade_color),
@@ -534,9 +539,9 @@ pub(crate) fn finish(own: &Finish) -> scene::Finish {
             })
         }),
         irid: own.irid.map(|film| {
-            let Film { amount, thickness, turbulence, generator } = film;
+            let Film { amount, thickness, turbulence } = film;
             let wavelength = scene::Rgb::new(0.70, 0.52, 0.48);
-            scene::Irid { amount, thickness, wavelength, turbulence, generator }
+            scene::Irid { amount, thickness, wavelength, turbulence, generator: None }
         }),
         conserve_energy: own.conserve_energy,
     }

@@ -1,6 +1,7 @@
 //! Settings of the whole scene: the language's version, gamma, limits of recursion, the background.
 
 use durer_math::elementary;
+use durer_scene::NoiseGenerator;
 
 use crate::colour::srgb_decoded;
 use crate::diagnostics::{Error, Place, Result};
@@ -26,7 +27,7 @@ pub(crate) struct Language {
     pub(crate) version_given: bool,
     pub(crate) gamma: Option<Gamma>,
     /// The generator for noise functions that do not state one.
-    noise_generator: Option<f64>,
+    noise_generator: Option<NoiseGenerator>,
     /// Whether there are such functions.
     pub(crate) noise_is_used: bool,
 }
@@ -37,8 +38,11 @@ impl Default for Language {
     }
 }
 
-/// The number of the new noise generator, and the version that introduced it.
-const NEW_NOISE: (f64, f64) = (2.0, 3.5);
+/// The version that introduced the second noise generator.
+const NEW_NOISE: f64 = 3.5;
+
+/// The version since which a declaration of a number must end with a semicolon.
+const SEMICOLONS: f64 = 3.5;
 
 /// The version of scenes without any `#version`.
 const UNVERSIONED: f64 = 3.62;
@@ -49,10 +53,16 @@ impl Language {
         if self.version_given { self.version } else { UNVERSIONED }
     }
 
+    /// Whether a declaration of a number may end without a semicolon.
+    pub(crate) fn may_omit_semicolons(&self) -> bool {
+        self.version < SEMICOLONS
+    }
+
     /// The generator for noise functions that do not state one.
-    pub(crate) fn noise_generator(&self) -> f64 {
-        let (new, since) = NEW_NOISE;
-        self.noise_generator.unwrap_or(if self.version < since { 1.0 } else { new })
+    pub(crate) fn noise_generator(&self) -> NoiseGenerator {
+        let of_version =
+            if self.version < NEW_NOISE { NoiseGenerator::First } else { NoiseGenerator::Second };
+        self.noise_generator.unwrap_or(of_version)
     }
 
     /// Converts an sRGB-encoded value to the scene's own scale.
@@ -196,10 +206,10 @@ impl Parser<'_> {
                 format!("the noise generators are 1, 2 and 3, not {generator}"),
             ));
         }
+        let generator = NoiseGenerator::numbered(generator);
         self.language.noise_generator = Some(generator);
         if self.language.noise_is_used && generator != before {
-            let text = format!("functions of noise that were declared before keep noise generator {before}");
-            self.notice(place, text);
+            self.notice(place, "functions of noise that were declared before keep their noise generator");
         }
         Ok(())
     }

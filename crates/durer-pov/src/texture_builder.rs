@@ -219,7 +219,7 @@ fn check_pavement(pavement: &scene::Pavement, place: Place) -> Result<()> {
 fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
     let own = &pattern.modifiers.turbulence;
     let stirred = || (!own.is_none()).then(|| own.scene());
-    let grain = |kind| scene::Ramp::Noise(scene::Grain { kind, generator: own.generator() });
+    let grain = |kind| scene::Ramp::Noise(scene::Grain { kind, generator: own.generator });
     let ripples = |waves| {
         let (frequency, phase) = (pattern.modifiers.frequency, pattern.modifiers.phase);
         scene::Ramp::Ripples(scene::Ripples { waves, frequency, phase })
@@ -231,7 +231,7 @@ fn ramp_of(pattern: &Pattern, at: Place) -> Result<scene::Ramp> {
             match &mut ramp {
                 // Turbulence moves the points of a spiral, and shifts it too (a fact of the language).
                 scene::Ramp::Spiral { turbulence, .. } => *turbulence = stirred(),
-                scene::Ramp::Crackle(crackle) => crackle.generator = own.generator(),
+                scene::Ramp::Crackle(crackle) => crackle.generator = own.generator,
                 scene::Ramp::Pavement(pavement) => check_pavement(pavement, *place)?,
                 _ => {}
             }

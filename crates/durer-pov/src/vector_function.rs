@@ -17,6 +17,9 @@ use crate::value::Terms;
 /// The weights of red, green and blue in grey.
 const GRAY: [f64; 3] = [0.297, 0.589, 0.114];
 
+/// The weights of red and green in a height: two digits to the base 256.
+const HEIGHT: [f64; 2] = [255.0 / 256.0, 1.0 / 256.0];
+
 /// A function whose value is a vector of two to five components.
 #[derive(Clone, Debug)]
 pub(crate) struct VectorFunction {
@@ -51,6 +54,11 @@ impl VectorFunction {
             return Some(GRAY.into_iter().zip(colours).collect());
         }
         Some(vec![(1.0, self.parts.get(index(word)?)?)])
+    }
+
+    /// The height, `.hf`, of a pigment's colour, as a sum of functions with their weights.
+    pub(crate) fn height(&self) -> Option<Vec<(f64, &Called)>> {
+        Some(HEIGHT.into_iter().zip(self.parts.get(..2)?).collect())
     }
 }
 

@@ -19,7 +19,7 @@ impl FunctionValues {
         settings: &Settings,
     ) -> Result<Self, AffineError> {
         let grains = noise.map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
-        building_with(grains, settings.number_of_waves, || Sampled::new(function)).map(Self)
+        building_with(grains, settings.into(), || Sampled::new(function)).map(Self)
     }
 
     /// The value for some inputs; NaN where it is undefined, or if there are too few.

@@ -11,6 +11,8 @@ pub(crate) struct Medium {
     /// The index of refraction.
     pub(crate) ior: f64,
     fade: Option<Fade>,
+    /// The factor of the light behind a surface.
+    pub(crate) refraction: f64,
     /// The exponent with which caustics brighten shadows.
     pub(crate) caustics: Option<Power>,
 }
@@ -42,7 +44,7 @@ impl Medium {
             fades_shadows: interior.fade_power > 0.0,
         });
         let caustics = (interior.caustics != 0.0).then(|| Power::new(interior.caustics));
-        Self { ior: interior.ior, fade, caustics }
+        Self { ior: interior.ior, refraction: interior.refraction, fade, caustics }
     }
 
     /// The transmittance of the medium over these distances, for shadow rays.

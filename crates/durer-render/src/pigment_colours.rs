@@ -32,7 +32,7 @@ impl PigmentColours {
     ) -> Result<Self, AffineError> {
         let grains = noise.map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
         let build = || RenderPigment::new(pigment, &Affine::IDENTITY);
-        building_with(grains, settings.number_of_waves, build).map(Self)
+        building_with(grains, settings.into(), build).map(Self)
     }
 
     /// The colour at a point.

@@ -14,7 +14,7 @@ use crate::light::RenderLight;
 use crate::medium::Medium;
 use crate::ray_end::RayEnd;
 use crate::sky::Sky;
-use crate::texture::{Grains, RenderTexture, building_with};
+use crate::texture::{Grains, NoiseSettings, RenderTexture, building_with};
 
 /// A scene prepared for rendering: built once, then shared by all threads.
 pub struct World {
@@ -37,7 +37,7 @@ pub struct World {
     /// lights its surfaces. Empty without groups.
     lit: Vec<Vec<bool>>,
     grains: Grains,
-    number_of_waves: u32,
+    noise_settings: NoiseSettings,
     pub(crate) max_level: u32,
     pub(crate) adc_bailout: f64,
     /// Whether the opacity of a layer uses its filter times its greatest channel.
@@ -85,7 +85,7 @@ impl World {
     /// Builds the geometry of a scene and prepares its looks, lights and camera.
     pub fn new(scene: &Scene) -> Result<Self, WorldError> {
         let grains = scene.noise.as_ref().map_or(Grains::Own, |noise| Grains::Learned(noise.clone()));
-        building_with(grains.clone(), scene.settings.number_of_waves, || Self::built(scene, grains))
+        building_with(grains.clone(), (&scene.settings).into(), || Self::built(scene, grains))
     }
 
     fn built(scene: &Scene, grains: Grains) -> Result<Self, WorldError> {
@@ -143,7 +143,7 @@ impl World {
             fogs: scene.fogs.iter().map(RenderFog::new).collect(),
             rainbows: scene.rainbows.clone(),
             grains,
-            number_of_waves: settings.number_of_waves,
+            noise_settings: settings.into(),
             sky: Sky::new(scene, settings.version < NEW_OPACITY)?,
             max_level: settings.max_trace_level,
             adc_bailout: settings.adc_bailout,
@@ -169,7 +169,7 @@ impl World {
     ///
     /// Returns a [`CameraError`] if the camera cannot be built; the world then keeps its own.
     pub fn set_camera(&mut self, camera: &durer_scene::Camera) -> Result<(), CameraError> {
-        let built = building_with(self.grains.clone(), self.number_of_waves, || Camera::new(camera))?;
+        let built = building_with(self.grains.clone(), self.noise_settings, || Camera::new(camera))?;
         self.standing = standing(&self.lowered, Some(camera), Some(&built));
         self.camera_end = Some(RayEnd::camera(&self.lowered.geometry, built.start_size()));
         self.camera = Some(built);

@@ -70,8 +70,8 @@ pub struct Irid {
     /// How much the thickness varies from place to place: it is multiplied by
     /// `1 + turbulence (2 T - 1)`, where `T` is five octaves of noise at the point in space.
     pub turbulence: f64,
-    /// The generator of that noise.
-    pub generator: NoiseGenerator,
+    /// The generator of that noise; `None` for that of the scene.
+    pub generator: Option<NoiseGenerator>,
 }
 
 /// How a surface reflects its surroundings.

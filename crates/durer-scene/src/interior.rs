@@ -7,6 +7,8 @@ use crate::Rgb;
 pub struct Interior {
     /// The index of refraction; positive.
     pub ior: f64,
+    /// The factor of the light behind each surface: `refraction` in old scenes. Shadows do not have it.
+    pub refraction: f64,
     /// The depth at which half of the light is left; 0 for no fading. With a negative depth the
     /// formula is evaluated as it stands.
     pub fade_distance: f64,
@@ -22,6 +24,13 @@ pub struct Interior {
 
 impl Default for Interior {
     fn default() -> Self {
-        Self { ior: 1.0, fade_distance: 0.0, fade_power: 0.0, fade_color: Rgb::BLACK, caustics: 0.0 }
+        Self {
+            ior: 1.0,
+            refraction: 1.0,
+            fade_distance: 0.0,
+            fade_power: 0.0,
+            fade_color: Rgb::BLACK,
+            caustics: 0.0,
+        }
     }
 }

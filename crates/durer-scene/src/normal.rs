@@ -86,8 +86,8 @@ pub enum Push {
     Bumps,
     /// Noise that is strong in few places.
     Dents {
-        /// The generator of its strength.
-        generator: NoiseGenerator,
+        /// The generator of its strength; `None` for that of the scene.
+        generator: Option<NoiseGenerator>,
     },
     /// Octaves of noise.
     Wrinkles,

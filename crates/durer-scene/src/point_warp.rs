@@ -11,8 +11,8 @@ pub struct Turbulence {
     pub amount: Vec3,
     /// The octaves.
     pub octaves: Octaves,
-    /// The generator of the noise.
-    pub generator: NoiseGenerator,
+    /// The generator of the noise; `None` for that of the scene.
+    pub generator: Option<NoiseGenerator>,
 }
 
 /// A map of the point at which a pattern is evaluated.

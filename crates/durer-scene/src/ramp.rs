@@ -110,8 +110,8 @@ impl NoiseGenerator {
 pub struct Grain {
     /// The kind of the pattern.
     pub kind: GrainKind,
-    /// The generator of the noise.
-    pub generator: NoiseGenerator,
+    /// The generator of the noise; `None` for that of the scene.
+    pub generator: Option<NoiseGenerator>,
 }
 
 /// The kinds of patterns made of noise.
@@ -162,8 +162,8 @@ pub struct Crackle {
     pub offset: f64,
     /// Whether the number is constant over all points with the same nearest point.
     pub solid: bool,
-    /// The noise generator of that number.
-    pub generator: NoiseGenerator,
+    /// The noise generator of that number; `None` for that of the scene.
+    pub generator: Option<NoiseGenerator>,
 }
 
 /// The angle of a surface's normal to a direction, mixed with a height.

@@ -28,8 +28,6 @@ pub enum TextureSource {
         /// The number.
         value: Value,
     },
-    /// The noise that textures are made of, around zero.
-    Noise,
 }
 
 /// A number of a texture at a point that formulas give.

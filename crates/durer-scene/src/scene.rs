@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::{Camera, Colour, Fog, LearnedNoise, Light, LightGroup, Object, Pigment, Rainbow, Rgb};
+use crate::{
+    Camera, Colour, Fog, LearnedNoise, Light, LightGroup, NoiseGenerator, Object, Pigment, Rainbow, Rgb,
+};
 
 /// A whole scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,6 +68,8 @@ pub struct Settings {
     pub ambient_light: Rgb,
     /// The number of centres of the waves of `ripples` and `waves`.
     pub number_of_waves: u32,
+    /// The generator of noise that names none of its own.
+    pub noise_generator: NoiseGenerator,
 }
 
 impl Default for Settings {
@@ -77,6 +81,7 @@ impl Default for Settings {
             adc_bailout: 1.0 / 255.0,
             ambient_light: Rgb::WHITE,
             number_of_waves: 10,
+            noise_generator: NoiseGenerator::default(),
         }
     }
 }

@@ -34,13 +34,14 @@ pub(super) struct Known {
 }
 
 /// All entries that a scene of the generator can have.
-pub(super) const ALL: [Known; 6] = [
+pub(super) const ALL: [Known; 7] = [
     Known { entry: "`no_shadow` holds for every part of a union.", without: without_no_shadow },
     Known { entry: "A camera exactly on a clear sphere", without: without_camera_on_a_surface },
     Known { entry: "Two surfaces at the same place.", without: without_second_ceiling },
     Known { entry: "Two surfaces at the same place.", without: with_things_apart },
     Known { entry: "`slope` and `aoi` on bumps", without: without_slopes },
     Known { entry: "Bumps after a turned pattern of textures.", without: without_turns },
+    Known { entry: "Fractals far away.", without: without_far_fractals },
 ];
 
 /// With all `Reworded` at once, and their entries.
@@ -183,7 +184,7 @@ fn with_polygons(scene: &Scene) -> Option<Scene> {
 /// With another pattern for `slope` and `aoi`, if the scene has bumps and textures of textures.
 fn without_slopes(scene: &Scene) -> Option<Scene> {
     let text = scene.text();
-    if !text.contains("normal {") || !text.contains("texture {") {
+    if !text.contains("normal {") || !["texture {", "no_bump_scale"].iter().any(|word| text.contains(word)) {
         return None;
     }
     rewritten(scene, |open| {
@@ -193,6 +194,15 @@ fn without_slopes(scene: &Scene) -> Option<Scene> {
         }
         let (before, word) = open.rsplit_once(' ')?;
         (word == "aoi").then(|| format!("{before} leopard"))
+    })
+}
+
+/// With fractals whose outside is no power of the distance.
+fn without_far_fractals(scene: &Scene) -> Option<Scene> {
+    rewritten(scene, |open| {
+        let (before, outside) = open.split_once(" exterior ")?;
+        let (kind, factor) = outside.split_once(',')?;
+        (2..=6).contains(&kind.parse::<u32>().ok()?).then(|| format!("{before} exterior 1,{factor}"))
     })
 }
 

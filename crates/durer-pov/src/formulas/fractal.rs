@@ -19,6 +19,7 @@ use crate::noise_pattern;
 use durer_formula::Function;
 use durer_formula::noise::NoiseTable;
 use durer_formula::{Builder, Formula, FormulaError, NodeId, Op};
+use durer_scene::NoiseGenerator;
 
 /// The number of the function that is plain noise.
 pub(crate) const PLAIN: f64 = 76.0;
@@ -188,7 +189,7 @@ impl Draft {
 
 /// The formula of a function by its number, with this table for the third generator; `None` if it is
 /// not made of noise.
-pub(super) fn internal(number: f64, generator: f64, rows: &'static NoiseTable) -> Option<Formula> {
+pub(super) fn internal(number: f64, generator: NoiseGenerator, rows: &'static NoiseTable) -> Option<Formula> {
     let made = |write: fn(&mut Draft) -> Step| {
         let mut draft = Draft::new(rows)?;
         let root = write(&mut draft).ok()?;
@@ -196,6 +197,11 @@ pub(super) fn internal(number: f64, generator: f64, rows: &'static NoiseTable) -
     };
     match number {
         PLAIN => {
+            let generator = match generator {
+                NoiseGenerator::First => 1.0,
+                NoiseGenerator::Second => 2.0,
+                NoiseGenerator::Third => 3.0,
+            };
             let mut b = Builder::new();
             let arguments =
                 [b.input(0).ok()?, b.input(1).ok()?, b.input(2).ok()?, b.constant(generator).ok()?];

@@ -11,6 +11,7 @@ pub(crate) mod pieces;
 
 use durer_formula::noise::NoiseTable;
 use durer_formula::{Formula, Op};
+use durer_scene::NoiseGenerator;
 use pen::Pen;
 
 pub(crate) use fractal::PLAIN as PLAIN_NOISE;
@@ -306,7 +307,7 @@ pub(crate) fn check(function: Noisy, arguments: &[Option<f64>]) -> Result<(), St
 /// the table of the third generator.
 pub(crate) fn internal(
     number: f64,
-    generator: f64,
+    generator: NoiseGenerator,
     rows: &'static NoiseTable,
 ) -> Result<(Formula, Option<Noisy>), Lacking> {
     if let Some(formula) = fractal::internal(number, generator, rows) {
@@ -356,7 +357,7 @@ mod tests {
     }
 
     fn numbered(number: f64) -> Result<(Formula, Option<Noisy>), Lacking> {
-        internal(number, 2.0, NoiseTable::own_rows())
+        internal(number, NoiseGenerator::Second, NoiseTable::own_rows())
     }
 
     #[test]

@@ -86,7 +86,12 @@ impl Parser<'_> {
                     self.switch_value()?;
                 }
                 Keyword::Photons => self.skip_photons()?,
-                Keyword::Radiosity => self.leave_out(Keyword::Radiosity, lexeme.place)?,
+                // It matters only in scenes with radiosity, which warn of that.
+                Keyword::Radiosity => {
+                    let braces = self.braces;
+                    self.expect(Mark::BraceOpen)?;
+                    self.skip_to_brace_level(braces)?;
+                }
                 Keyword::ClippedBy => {
                     let parts = self.cutters(&object.bounds, Keyword::BoundedBy)?;
                     object.clips.extend(parts);

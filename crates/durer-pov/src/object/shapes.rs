@@ -84,7 +84,8 @@ impl Parser<'_> {
                 let normal = self.corner()?;
                 self.need("a disc needs a radius after its normal")?;
                 let radius = self.size()?;
-                let hole = if self.take_mark(Mark::Comma)? { self.size()? } else { 0.0 };
+                self.skip_comma()?;
+                let hole = if self.starts_number()? { self.size()? } else { 0.0 };
                 if length(normal) == 0.0 {
                     self.nothing("the normal of this disc has no length", place)
                 } else if hole >= radius {

@@ -2,8 +2,7 @@
 
 use durer_formula::{Formula, Tape};
 use durer_math::{F8, Point3};
-use durer_render::PigmentColours;
-use durer_scene::{self as scene, HeightField, MOST_SAMPLES, Settings, Terrain, TerrainData};
+use durer_scene::{self as scene, HeightField, MOST_SAMPLES, Terrain, TerrainData};
 
 use super::Shape;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
@@ -13,7 +12,6 @@ use crate::parser::Parser;
 use crate::pattern_function::NOT_INVERTIBLE;
 use crate::picture::{self, Fault, Format};
 use crate::texture::Pigment;
-use crate::texture_builder;
 
 /// How many values of a function count as a step.
 const VALUES_A_STEP: usize = 64;
@@ -134,11 +132,7 @@ impl Parser<'_> {
         let own = self.nested(|r| r.pigment_block(&Pigment::default()))?;
         self.expect(Mark::BraceClose)?;
         self.count_steps((size[0] * size[1]) as u64, place)?;
-        let settings =
-            Settings { number_of_waves: self.scene.globals.number_of_waves, ..Settings::default() };
-        let made = texture_builder::pigment(&own, place)?;
-        let colours = PigmentColours::new(&made, self.options.noise.as_ref(), &settings)
-            .map_err(|error| Error::invalid(place, error.to_string()))?;
+        let colours = self.pigment_colours(&own, place)?;
         Ok(heights_of(size, |x, y| colours.luminances(Point3 { x, y: F8::splat(y), z: F8::ZERO })))
     }
 

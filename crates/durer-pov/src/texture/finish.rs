@@ -1,7 +1,6 @@
 //! Finishes: how a surface reflects and scatters light.
 
 use durer_math::elementary;
-use durer_scene::NoiseGenerator;
 
 use crate::colour::Colour;
 use crate::diagnostics::{Error, Result};
@@ -35,8 +34,6 @@ pub(crate) struct Film {
     pub(crate) amount: f64,
     pub(crate) thickness: f64,
     pub(crate) turbulence: f64,
-    /// The noise generator of the turbulence.
-    pub(crate) generator: NoiseGenerator,
 }
 
 /// How a surface reflects and scatters light.
@@ -59,6 +56,8 @@ pub(crate) struct Finish {
     pub(crate) reflection: Reflection,
     /// The index of refraction of the inside, in old scenes: it replaces the interior's.
     pub(crate) ior: Option<f64>,
+    /// The factor of the light behind the surface, in old scenes.
+    pub(crate) refraction: f64,
     /// The caustics of the inside, in old scenes: the exponent of the cosine, unlike the number of
     /// an interior.
     pub(crate) caustics: Option<f64>,
@@ -82,6 +81,7 @@ impl Default for Finish {
             irid: None,
             reflection: Reflection::default(),
             ior: None,
+            refraction: 1.0,
             caustics: None,
         }
     }
@@ -145,9 +145,8 @@ impl Parser<'_> {
                 Keyword::Diffuse => {
                     albedo.diffuse = self.take_word(Keyword::Albedo)?;
                     finish.diffuse = self.float()?;
-                    if self.take_mark(Mark::Comma)? {
-                        finish.diffuse_back = self.float()?;
-                    }
+                    self.skip_comma()?;
+                    finish.diffuse_back = self.float_or(0.0)?;
                 }
                 Keyword::Brilliance => finish.brilliance = self.float()?,
                 Keyword::Phong => {
@@ -177,12 +176,7 @@ impl Parser<'_> {
                 Keyword::Reflection => self.reflection(&mut finish.reflection)?,
                 Keyword::Ior => finish.ior = Some(self.index_of_refraction()?),
                 Keyword::Caustics => finish.caustics = Some(self.float()?),
-                // It switches refraction on, which the index does by itself.
-                Keyword::Refraction => {
-                    if self.float()? != 1.0 {
-                        return Err(Error::unsupported(place, "another refraction than 1"));
-                    }
-                }
+                Keyword::Refraction => finish.refraction = self.float()?,
                 Keyword::Irid => self.irid(&mut finish.irid)?,
                 Keyword::Subsurface => self.leave_out(keyword, place)?,
                 _ => return Err(self.unexpected(&lexeme, "a part of a finish")),
@@ -196,7 +190,6 @@ impl Parser<'_> {
         self.expect(Mark::BraceOpen)?;
         let mut film = irid.unwrap_or_default();
         film.amount = self.float()?;
-        film.generator = NoiseGenerator::numbered(self.language.noise_generator());
         loop {
             let lexeme = self.next()?;
             match &lexeme.item {

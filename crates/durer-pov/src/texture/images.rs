@@ -24,6 +24,14 @@ pub(crate) struct ReadImage {
     pub(crate) bump_size: Option<f64>,
 }
 
+/// Where a picture comes from.
+enum Origin {
+    /// A file of this name and format.
+    File(String, Format),
+    /// A function, whose values these are.
+    Function(Colours),
+}
+
 /// The bytes of a pixel.
 const PIXEL: usize = size_of::<[f32; 5]>();
 
@@ -65,26 +73,10 @@ impl Parser<'_> {
         mut other: impl FnMut(&mut Self) -> Result<bool>,
     ) -> Result<ReadImage> {
         self.expect(Mark::BraceOpen)?;
-        let mut format = None;
-        if let Some(word) = self.peek_word()? {
-            let at = self.here();
-            format = Format::from_keyword(word).filter(|format| *format != Format::Pot);
-            if format.is_some() {
-                self.next()?;
-            } else if matches!(word, Keyword::Iff | Keyword::Pot | Keyword::Sys | Keyword::Function) {
-                let text = format!("a picture of the type {}", word.text());
-                return Err(Error::unsupported(at, &text));
-            }
-        }
-        let name = self.file_name()?;
+        let origin = self.image_origin()?;
         let at = self.here();
-        let Some(format) = format.or_else(|| Format::from_name(&name)) else {
-            let text = format!(
-                "the ending of \"{name}\" does not tell what it is: say png, jpeg, gif, tga, bmp, pgm, ppm, tiff, exr or hdr before it"
-            );
-            return Err(Error::invalid(at, text));
-        };
-        let mut meaning = None;
+        let is_file = matches!(origin, Origin::File(..));
+        let mut meaning = if is_file { None } else { Some(Meaning::AsTheyAre) };
         let (mut layout, mut once, mut between) = (Layout::Flat, false, Between::Nearest);
         let mut value = None;
         let mut bump_size = None;
@@ -99,6 +91,9 @@ impl Parser<'_> {
             let place = self.here();
             self.next()?;
             match word {
+                Keyword::Gamma if !is_file => {
+                    return Err(Error::invalid(place, "a picture made of a function has no gamma"));
+                }
                 Keyword::Gamma if self.take_word(Keyword::Srgb)? => meaning = Some(Meaning::Srgb),
                 Keyword::Gamma => {
                     let power = self.float()?;
@@ -152,10 +147,13 @@ impl Parser<'_> {
             }
         }
         self.expect(Mark::BraceClose)?;
-        let found = self.unpacked(&name, format, at)?;
+        let found = match origin {
+            Origin::File(name, format) => self.unpacked(&name, format, at)?,
+            Origin::Function(made) => made,
+        };
         let meaning = if is_raw { Some(Meaning::AsTheyAre) } else { meaning };
         let image = self.finished_image(found, meaning, &clears);
-        let image = image.ok_or_else(|| Error::invalid(at, format!("\"{name}\" has no pixels")))?;
+        let image = image.ok_or_else(|| Error::invalid(at, "this picture has no pixels"))?;
         let stated = value;
         let value = value.unwrap_or(match image.has_palette() {
             true => ImageValue::Index,
@@ -163,6 +161,33 @@ impl Parser<'_> {
         });
         let map = Arc::new(ImageMap { image: Arc::new(image), layout, once, between });
         Ok(ReadImage { map, value, stated, bump_size })
+    }
+
+    /// Reads the name of a picture's file, with its format, or the function of which it is made.
+    fn image_origin(&mut self) -> Result<Origin> {
+        if self.take_word(Keyword::Function)? {
+            return Ok(Origin::Function(self.function_image()?));
+        }
+        let mut format = None;
+        if let Some(word) = self.peek_word()? {
+            let at = self.here();
+            format = Format::from_keyword(word).filter(|format| *format != Format::Pot);
+            if format.is_some() {
+                self.next()?;
+            } else if matches!(word, Keyword::Iff | Keyword::Pot | Keyword::Sys) {
+                let text = format!("a picture of the type {}", word.text());
+                return Err(Error::unsupported(at, &text));
+            }
+        }
+        let name = self.file_name()?;
+        let at = self.here();
+        let format = format.or_else(|| Format::from_name(&name)).ok_or_else(|| {
+            let text = format!(
+                "the ending of \"{name}\" does not tell what it is: say png, jpeg, gif, tga, bmp, pgm, ppm, tiff, exr or hdr before it"
+            );
+            Error::invalid(at, text)
+        })?;
+        Ok(Origin::File(name, format))
     }
 
     fn unpacked(&mut self, name: &str, format: Format, at: Place) -> Result<Colours> {

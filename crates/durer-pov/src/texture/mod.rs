@@ -2,6 +2,7 @@
 
 mod density_file;
 mod finish;
+mod function_images;
 mod images;
 mod interior;
 mod maps;
@@ -56,6 +57,9 @@ pub(crate) enum Texture {
 
 /// The greatest number of layers of a texture; scenes use a handful.
 const MOST_LAYERS: usize = 256;
+
+/// The version since which all layers filter.
+const FILTERING_LAYERS: f64 = 3.2;
 
 impl Texture {
     /// Makes a texture of one layer.
@@ -129,7 +133,9 @@ impl Parser<'_> {
     pub(crate) fn laid_on(&self, below: Texture, above: Texture) -> Result<Texture> {
         match (below, above) {
             (Texture::Layers(mut layers), Texture::Layers(more)) => {
+                let first = layers.len();
                 layers.extend(more);
+                self.clear_old_filters(&mut layers[first..]);
                 if layers.len() > MOST_LAYERS {
                     let text = format!("a texture has at most {MOST_LAYERS} layers");
                     return Err(Error::invalid(self.here(), text));
@@ -137,6 +143,14 @@ impl Parser<'_> {
                 Ok(Texture::Layers(layers))
             }
             _ => Err(Error::invalid(self.here(), "a patterned texture cannot be layered")),
+        }
+    }
+
+    /// In old scenes the layers above the innermost one do not filter: they let light pass unchanged (a fact of
+    /// the language).
+    fn clear_old_filters(&self, layers: &mut [Layer]) {
+        if self.language.version < FILTERING_LAYERS {
+            layers.iter_mut().for_each(|layer| layer.pigment.clear_filters());
         }
     }
 
@@ -209,6 +223,11 @@ impl Parser<'_> {
         }
         if on_chart {
             texture.put_on_chart();
+        }
+        if let Texture::Layers(layers) = &mut texture
+            && let [_, upper @ ..] = layers.as_mut_slice()
+        {
+            self.clear_old_filters(upper);
         }
         Ok(texture)
     }

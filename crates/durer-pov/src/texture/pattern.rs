@@ -3,6 +3,8 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use durer_scene::NoiseGenerator;
+
 use crate::diagnostics::{Error, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::Mark;
@@ -162,7 +164,7 @@ impl Pattern {
 }
 
 /// The greatest number of warps of a pattern; scenes use a few.
-const MOST_WARPS: usize = 256;
+const MOST_WARPS: usize = 4096;
 
 impl Parser<'_> {
     /// Reads the word of a pattern, if one comes next; `base` is the pattern that it replaces.
@@ -220,9 +222,11 @@ impl Parser<'_> {
     pub(crate) fn set_noise_generator(&self, modifiers: &mut PatternModifiers) {
         let generator = self.language.noise_generator();
         let tables = self.noise_tables();
-        if modifiers.turbulence.generator != generator || modifiers.turbulence.tables != tables {
+        let own = &modifiers.turbulence;
+        if own.generator.is_some() || own.scene_generator != generator || own.tables != tables {
             let turbulence = Rc::make_mut(&mut modifiers.turbulence);
-            (turbulence.generator, turbulence.tables) = (generator, tables);
+            (turbulence.generator, turbulence.scene_generator) = (None, generator);
+            turbulence.tables = tables;
         }
     }
 
@@ -303,7 +307,7 @@ impl Parser<'_> {
                 self.next()?;
                 // 0 means the scene's generator.
                 let said = self.float()?;
-                let generator = if said == 0.0 { self.language.noise_generator() } else { said };
+                let generator = (said != 0.0).then(|| NoiseGenerator::numbered(said));
                 Rc::make_mut(&mut modifiers.turbulence).generator = generator;
             }
             Keyword::Warp => {

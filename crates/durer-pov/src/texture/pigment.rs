@@ -76,6 +76,30 @@ impl Pigment {
         })
     }
 
+    /// Turns the filter of all colours to transmittance.
+    pub(crate) fn clear_filters(&mut self) {
+        let clear = |colour: &mut Colour| {
+            let [.., filter, transmit] = colour;
+            (*filter, *transmit) = (0.0, *filter + *transmit);
+        };
+        if let Body::Solid(colour) = &mut self.body {
+            clear(colour);
+        }
+        match &self.paint {
+            Some(Paint::Colors(map)) => {
+                let mut entries = map.entries.clone();
+                entries.iter_mut().for_each(|(_, colour)| clear(colour));
+                self.paint = Some(Paint::Colors(Rc::new(Map::new(entries, map.depth))));
+            }
+            Some(Paint::Pigments(map)) => {
+                let mut entries = map.entries.clone();
+                entries.iter_mut().for_each(|(_, pigment)| pigment.clear_filters());
+                self.paint = Some(Paint::Pigments(Rc::new(Map::new(entries, map.depth))));
+            }
+            None => {}
+        }
+    }
+
     /// The nesting depth of maps.
     pub(crate) fn depth(&self) -> u32 {
         let own = match &self.body {

@@ -4,9 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use durer_math::{Point3, Vec3};
-use durer_scene::{
-    CornerLook, Crackle, Fractal, FractalMap, GridBetween, NoiseGenerator, Pavement, Ramp, Slope, SlopeTo,
-};
+use durer_scene::{CornerLook, Crackle, Fractal, FractalMap, GridBetween, Pavement, Ramp, Slope, SlopeTo};
 
 use super::PatternKind;
 use crate::diagnostics::{Error, Place, Result};
@@ -38,13 +36,7 @@ impl Parser<'_> {
             Keyword::Crackle => {
                 self.next()?;
                 let form = Vec3::new(-1.0, 1.0, 0.0);
-                Ramp::Crackle(Crackle {
-                    form,
-                    metric: 2.0,
-                    offset: 0.0,
-                    solid: false,
-                    generator: NoiseGenerator::Second,
-                })
+                Ramp::Crackle(Crackle { form, metric: 2.0, offset: 0.0, solid: false, generator: None })
             }
             Keyword::Mandel | Keyword::Julia => Ramp::Fractal(self.fractal(FractalMap::Power(2))?),
             Keyword::Magnet => {

@@ -108,6 +108,7 @@ impl<'w> Onward<'w> {
             border.crossing.behind(look.medium, &standing.media, &mut media);
             let as_before = (standing.level + u32::from(bends), standing.mask, draws);
             let through = self.bundle((stack, THROUGH), standing, as_before, None, &media);
+            let refraction = F8::splat(world.media[look.medium as usize].refraction);
             isa.run_in_lanes(
                 #[inline(always)]
                 || {
@@ -115,7 +116,7 @@ impl<'w> Onward<'w> {
                         let (direction, lanes) = passing(world, border, spot);
                         let (weight, counts_for_enough) = dimmed(world, spot);
                         let lanes = lanes & counts_for_enough;
-                        let factor = spot.paths.factor * spot.passed * faded(world, part, spot);
+                        let factor = spot.paths.factor * spot.passed * faded(world, part, spot) * refraction;
                         send(through, spot, direction, weight, factor, lanes, &mut counts.transmitted);
                     }
                 },
@@ -133,7 +134,7 @@ impl<'w> Onward<'w> {
                                 // Nothing passes, so the factor does not contain the layers'
                                 // colour. The ray's weight is still that of a ray that passes. The
                                 // outermost layer's film changes it (facts of the scene language).
-                                let mut factor = spot.paths.factor * faded(world, part, spot);
+                                let mut factor = spot.paths.factor * faded(world, part, spot) * refraction;
                                 let direction = mirrored(&spot.view, coats.plain_view(i));
                                 if let Some(film) = coats.film {
                                     let way = way_through_film(&spot.view, direction);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use durer_formula::noise::{self, NoiseTable};
 use durer_math::{F8, Point3, Vec3};
-use durer_scene::LearnedNoise;
+use durer_scene::{LearnedNoise, NoiseGenerator, Settings};
 
 /// The shifts of durer's own noise for the second and the third component of vectors.
 const ELSEWHERE: [[f64; 3]; 3] = [[0.0; 3], [157.0, -311.0, 89.0], [-223.0, 71.0, 439.0]];
@@ -19,16 +19,34 @@ pub(crate) enum Grains {
 }
 
 thread_local! {
-    /// The noise of the world that this thread is building, and its number of waves.
-    static CURRENT: RefCell<(Grains, u32)> = const { RefCell::new((Grains::Own, WAVES)) };
+    /// The noise of the world that this thread is building, and its settings.
+    static CURRENT: RefCell<(Grains, NoiseSettings)> = RefCell::default();
 }
 
-/// The default number of waves.
-const WAVES: u32 = 10;
+/// The settings of a scene about noise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NoiseSettings {
+    /// The number of centres of waves.
+    waves: u32,
+    /// The generator of noise that names none of its own.
+    generator: NoiseGenerator,
+}
 
-/// Runs `build`, in which [`Grains::current`] is `grains` and [`number_of_waves`] is `waves`.
-pub(crate) fn building_with<T>(grains: Grains, waves: u32, build: impl FnOnce() -> T) -> T {
-    let before = CURRENT.with(|current| current.replace((grains, waves)));
+impl From<&Settings> for NoiseSettings {
+    fn from(settings: &Settings) -> Self {
+        Self { waves: settings.number_of_waves, generator: settings.noise_generator }
+    }
+}
+
+impl Default for NoiseSettings {
+    fn default() -> Self {
+        Self::from(&Settings::default())
+    }
+}
+
+/// Runs `build`, in which [`Grains::current`] is `grains` and the settings are these.
+pub(crate) fn building_with<T>(grains: Grains, settings: NoiseSettings, build: impl FnOnce() -> T) -> T {
+    let before = CURRENT.with(|current| current.replace((grains, settings)));
     let built = build();
     CURRENT.with(|current| current.replace(before));
     built
@@ -36,7 +54,12 @@ pub(crate) fn building_with<T>(grains: Grains, waves: u32, build: impl FnOnce() 
 
 /// The number of centres of waves in the world that this thread is building.
 pub(crate) fn number_of_waves() -> u32 {
-    CURRENT.with(|current| current.borrow().1)
+    CURRENT.with(|current| current.borrow().1.waves)
+}
+
+/// A noise generator, or that of the world that this thread is building.
+pub(crate) fn generator_or_scene(own: Option<NoiseGenerator>) -> NoiseGenerator {
+    own.unwrap_or_else(|| CURRENT.with(|current| current.borrow().1.generator))
 }
 
 impl Grains {

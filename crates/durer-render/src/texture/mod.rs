@@ -21,7 +21,7 @@ mod wave;
 pub(crate) use self::around::{Around, Around8};
 pub(crate) use self::field::Stir;
 pub(crate) use self::fields::Weights;
-pub(crate) use self::grains::{Grains, building_with, number_of_waves};
+pub(crate) use self::grains::{Grains, NoiseSettings, building_with, generator_or_scene, number_of_waves};
 pub(crate) use self::place::Place;
 pub(crate) use self::sampled::Sampled;
 

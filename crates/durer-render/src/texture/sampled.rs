@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use durer_formula::{Formula, Op};
-use durer_math::{Affine, AffineError, F8, Point3, Vec3};
+use durer_math::{Affine, AffineError, Point3};
 use durer_scene::{Colour, SampledFunction, TextureSample, TextureSource};
 
 use super::lookup::Lookup;
-use super::{Around, Grains, Place, RenderPigment};
+use super::{Around, Place, RenderPigment};
 
 /// A [`SampledFunction`] with its textures prepared.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,6 @@ enum Coordinate {
 enum Source {
     Pigment(RenderPigment),
     Pattern(Place, Lookup),
-    Noise(Grains),
 }
 
 impl Source {
@@ -46,7 +45,6 @@ impl Source {
             TextureSource::Pattern { placement, warps, value } => {
                 Self::Pattern(Place::through(placement.affine(), warps), Lookup::new(value)?)
             }
-            TextureSource::Noise => Self::Noise(Grains::current()),
         })
     }
 
@@ -61,7 +59,6 @@ impl Source {
             Self::Pattern(place, lookup) => {
                 one(lookup.value(place.inside(p, Around::NOWHERE), Around::NOWHERE))
             }
-            Self::Noise(grains) => one(grains.values(Vec3::<F8>::splat(p.to_vec())).0[0]),
         }
     }
 }
@@ -125,6 +122,7 @@ impl Sampled {
 mod tests {
     use super::*;
     use durer_formula::Builder;
+    use durer_math::Vec3;
     use durer_scene::{Pattern, Pigment, Placement, Ramp, Rgb, Value};
 
     fn input(number: u32, inputs: u32) -> Formula {

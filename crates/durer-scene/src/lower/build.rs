@@ -5,6 +5,7 @@ use durer_math::{Aabb, Affine};
 use durer_surfaces::{Accelerate, Algebraic, Clip, Complement, DynSurface, Placed, Region, Solidity};
 
 use super::camera_media::Enclosure;
+use super::shared::Isosurfaces;
 
 /// Where a surface is added.
 pub(super) enum To<'b> {
@@ -23,6 +24,7 @@ pub(super) struct Target<'b> {
     pub(super) inside: Option<Enclosure>,
     /// A box that contains the starts of camera rays.
     pub(super) camera: Aabb,
+    pub(super) isosurfaces: &'b mut Isosurfaces,
 }
 
 impl Target<'_> {

@@ -240,6 +240,7 @@ impl Lowering {
             inverse: false,
             inside: None,
             camera: Aabb::EMPTY,
+            isosurfaces: &mut self.isosurfaces,
         };
         shapes::build(object, false, place.affine(), target)?;
         let part = part.ok_or(LowerErrorKind::Sheet(object.shape.name()))?;

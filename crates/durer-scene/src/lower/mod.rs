@@ -264,6 +264,7 @@ struct Lowering {
     around_camera: Vec<(u32, Enclosure)>,
     /// Meshes that several objects share.
     shared: shared::Meshes,
+    isosurfaces: shared::Isosurfaces,
     object: ObjectId,
     /// The address of the current object of the scene, for comparisons.
     top: *const Object,
@@ -289,6 +290,7 @@ impl Lowering {
             warnings: Vec::new(),
             around_camera: Vec::new(),
             shared: shared::Meshes::of(&scene.objects),
+            isosurfaces: shared::Isosurfaces::default(),
             top: core::ptr::null(),
             camera: scene.camera.as_ref().map_or(Aabb::EMPTY, Camera::standpoints),
             object: ObjectId(0),
@@ -440,6 +442,7 @@ impl Lowering {
             inverse: flags.inverse,
             inside: None,
             camera: self.camera,
+            isosurfaces: &mut self.isosurfaces,
         };
         match shapes::build(object, flags.open, place, target)? {
             shapes::Built::Nothing(why) => self.warnings.push((object.place, why)),

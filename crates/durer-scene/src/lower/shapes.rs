@@ -5,7 +5,7 @@ use std::fmt::Display;
 use durer_math::{Affine, Normal3, Point3, Vec3};
 use durer_surfaces::{
     Algebraic, AlgebraicSurface, Annulus, Axis, AxisBox, BezierPatch, Blob, BlobError, CappedCylinder,
-    CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, Isosurface, JuliaSet, Lathe, Nurbs, NurbsError,
+    CurvedPrism, Cyclide, Disc, FLAT, Frustum, HeightField, JuliaSet, Lathe, Nurbs, NurbsError,
     Parallelogram, Parametric, ParametricError, PatchError, Plane, Polygon, PolygonError, Prism, Quadric,
     Region, Sewn, Sphere, SphereSweep, SphereSweepError, SphericalSector, SubdivisionError,
     SubdivisionSurface, SurfaceOfRevolution, Torus, Triangle, TriangleError, TriangularPatch, superellipsoid,
@@ -186,8 +186,7 @@ pub(super) fn build(object: &Object, open: bool, place: &Affine, mut target: Tar
             target.add_rare(sector, map);
         }
         Shape::Isosurface(iso) => {
-            let container = container(iso.container)?;
-            let solid = Isosurface::new(&iso.function, iso.threshold, container).map_err(shape_error)?;
+            let solid = target.isosurfaces.built(iso)?;
             target.contain(&solid, map);
             target.add_rare(if open { solid.without_caps() } else { solid }, map);
         }

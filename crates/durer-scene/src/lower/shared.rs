@@ -1,10 +1,12 @@
-//! Meshes that several objects share: each is built once and instanced for every object.
+//! What several objects share and is built once: meshes, which are instanced for every object, and octrees of
+//! isosurfaces.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use durer_geometry::{Geometry, PrimitiveId};
 use durer_math::Affine;
+use durer_surfaces::Isosurface;
 
 use super::{LowerErrorKind, Lowering, build, shapes};
 use crate::{Mesh, Object, Shape};
@@ -33,6 +35,26 @@ impl Meshes {
             Shape::Mesh(mesh) if self.built.contains_key(&Arc::as_ptr(mesh)) => Some(mesh),
             _ => None,
         }
+    }
+}
+
+/// The isosurfaces so far. Equal ones share their octree, which is long to build.
+#[derive(Default)]
+pub(super) struct Isosurfaces {
+    built: Vec<(crate::Isosurface, Isosurface)>,
+}
+
+impl Isosurfaces {
+    /// The surface of an isosurface, closed by its container.
+    pub(super) fn built(&mut self, iso: &crate::Isosurface) -> shapes::Result<Isosurface> {
+        if let Some((_, surface)) = self.built.iter().find(|(known, _)| known == iso) {
+            return Ok(surface.clone());
+        }
+        let container = shapes::container(iso.container)?;
+        let made = Isosurface::new(&iso.function, iso.threshold, container);
+        let surface = made.map_err(shapes::shape_error)?;
+        self.built.push((iso.clone(), surface.clone()));
+        Ok(surface)
     }
 }
 
@@ -65,6 +87,7 @@ impl Lowering {
                 inverse: false,
                 inside: None,
                 camera: self.camera,
+                isosurfaces: &mut self.isosurfaces,
             };
             target.contain(&shapes::mesh(mesh)?, Some(place));
             self.around_camera.extend(target.inside.map(|inside| (medium, inside)));

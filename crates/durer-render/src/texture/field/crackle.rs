@@ -4,7 +4,7 @@ use durer_math::{F8, Point3, Vec3, elementary};
 use durer_scene::{CellNumbers, Crackle, NoiseGenerator};
 
 use super::noise::ranged;
-use crate::texture::Grains;
+use crate::texture::{Grains, generator_or_scene};
 use crate::vector::floor;
 
 /// The random number of the unit cube of a point.
@@ -68,7 +68,7 @@ impl Points {
             metric,
             fourth: metric.part(crackle.offset),
             solid: crackle.solid,
-            generator: crackle.generator,
+            generator: generator_or_scene(crackle.generator),
             grains: Grains::current(),
         }
     }
@@ -112,13 +112,7 @@ impl Points {
 
     /// A pattern for finding only the nearest point.
     pub(super) fn of_cells() -> Self {
-        let crackle = Crackle {
-            form: Vec3::X,
-            metric: 2.0,
-            offset: 0.0,
-            solid: false,
-            generator: NoiseGenerator::Second,
-        };
+        let crackle = Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: false, generator: None };
         Self::new(&crackle)
     }
 
@@ -195,7 +189,7 @@ mod tests {
                     metric,
                     offset,
                     solid: false,
-                    generator: NoiseGenerator::Second,
+                    generator: Some(NoiseGenerator::Second),
                 });
                 for k in 0..300 {
                     let k = f64::from(k);
@@ -212,7 +206,13 @@ mod tests {
     #[test]
     fn solid_cells_have_the_range_of_their_noise_generator() {
         let points = |generator| {
-            Points::new(&Crackle { form: Vec3::X, metric: 2.0, offset: 0.0, solid: true, generator })
+            Points::new(&Crackle {
+                form: Vec3::X,
+                metric: 2.0,
+                offset: 0.0,
+                solid: true,
+                generator: Some(generator),
+            })
         };
         for k in 0..100 {
             let k = f64::from(k);
@@ -232,7 +232,7 @@ mod tests {
             metric: 2.0,
             offset: 0.0,
             solid: false,
-            generator: NoiseGenerator::Second,
+            generator: Some(NoiseGenerator::Second),
         };
         for (form, want) in [(Vec3::new(-1.0, 1.0, 0.0), 0.196), (Vec3::X, 0.519), (Vec3::Y, 0.714)] {
             let points = Points::new(&crackle(form));

@@ -21,12 +21,14 @@ pub(super) use push::Pusher;
 use std::sync::Arc;
 
 use super::cells::Cutter;
-use super::{Around, Around8, Grains, Picture, RenderPigment, Sampled};
+use super::{Around, Around8, Grains, Picture, RenderPigment, Sampled, generator_or_scene};
 use crate::vector::{dot, floor, floor_lanes, unit};
 use crackle::Points;
 use durer_formula::Tape;
 use durer_math::{Affine, AffineError, F8, M8, Point3, Vec3};
-use durer_scene::{DensityGrid, Fractal, Grain, GridBetween, ImageValue, Pavement, Ramp, Slope};
+use durer_scene::{
+    DensityGrid, Fractal, GrainKind, GridBetween, ImageValue, NoiseGenerator, Pavement, Ramp, Slope,
+};
 use ripples::Centres;
 
 /// A [`Ramp`] with its constants precomputed.
@@ -44,7 +46,7 @@ pub(crate) enum Field {
     Wood(Option<Stir>),
     Spiral { arms: f64, double: bool, stir: Option<Stir> },
     Quilted(f64, f64),
-    Noise(Grain, Grains),
+    Noise(GrainKind, NoiseGenerator, Grains),
     Agate(f64, Stir),
     Cells,
     Ripples(Box<Centres>),
@@ -82,10 +84,8 @@ impl Field {
             }
             &Ramp::Quilted(bottom, top) => Self::Quilted(bottom, top),
             Ramp::Noise(grain) => match &grain.kind {
-                durer_scene::GrainKind::Agate(amount, turbulence) => {
-                    Self::Agate(*amount, Stir::new(turbulence))
-                }
-                _ => Self::Noise(*grain, Grains::current()),
+                GrainKind::Agate(amount, turbulence) => Self::Agate(*amount, Stir::new(turbulence)),
+                kind => Self::Noise(*kind, generator_or_scene(grain.generator), Grains::current()),
             },
             Ramp::Cells => Self::Cells,
             Ramp::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
@@ -160,7 +160,7 @@ impl Field {
 
     fn other_values(&self, p: Point3<F8>, around: &Around8, live: M8) -> F8 {
         match self {
-            Self::Noise(grain, grains) => noise::values(grain, grains, p),
+            Self::Noise(kind, generator, grains) => noise::values(*kind, *generator, grains, p),
             Self::Agate(amount, stir) => noise::agate(*amount, stir, p, live),
             Self::Marble(stir) => noise::marble(stir.as_ref(), p),
             Self::Wood(stir) => noise::wood(stir.as_ref(), p, live),

@@ -16,11 +16,11 @@
 //! clamped to `[0, 1]` (in `T` clamped only in the first octave). `t` is the turbulence. Functions
 //! of the scene language use the same formulas.
 
-use crate::texture::Grains;
+use crate::texture::{Grains, generator_or_scene};
 use crate::vector::floor;
 use core::f64::consts::TAU;
 use durer_math::{F8, M8, Point3, Vec3, elementary};
-use durer_scene::{Grain, GrainKind, NoiseGenerator, Turbulence};
+use durer_scene::{GrainKind, NoiseGenerator, Turbulence};
 
 /// `N`.
 pub(super) fn ranged(grains: &Grains, p: Vec3<F8>, generator: NoiseGenerator) -> F8 {
@@ -43,9 +43,9 @@ fn grain(grains: &Grains, p: Vec3<F8>, generator: NoiseGenerator, clamped: bool)
 }
 
 /// The values of a pattern at some points.
-pub(super) fn values(field: &Grain, grains: &Grains, p: Point3<F8>) -> F8 {
-    let (p, generator) = (p.to_vec(), field.generator);
-    match field.kind {
+pub(super) fn values(kind: GrainKind, generator: NoiseGenerator, grains: &Grains, p: Point3<F8>) -> F8 {
+    let p = p.to_vec();
+    match kind {
         GrainKind::Bozo | GrainKind::Agate(..) => ranged(grains, p, generator),
         GrainKind::Dents => {
             let n = ranged(grains, p, generator);
@@ -89,7 +89,7 @@ impl Stir {
         Self {
             amount: turbulence.amount,
             octaves: (0..turbulence.octaves.count).map(octave).collect(),
-            generator: turbulence.generator,
+            generator: generator_or_scene(turbulence.generator),
             grains: Grains::current(),
         }
     }

@@ -6,7 +6,7 @@ use durer_scene::{NoiseGenerator, Push};
 use super::crackle::Points;
 use super::noise::ranged;
 use super::ripples::Centres;
-use crate::texture::Grains;
+use crate::texture::{Grains, generator_or_scene};
 use crate::vector::{dot, floor, unit};
 
 /// A [`Push`] with its constants precomputed.
@@ -35,7 +35,7 @@ impl Pusher {
     pub(in crate::texture) fn new(push: &Push) -> Self {
         match push {
             Push::Bumps => Self::Bumps(Grains::current()),
-            &Push::Dents { generator } => Self::Dents(Grains::current(), generator),
+            &Push::Dents { generator } => Self::Dents(Grains::current(), generator_or_scene(generator)),
             Push::Wrinkles => Self::Wrinkles(Grains::current()),
             Push::Ripples(ripples) => Self::Ripples(Box::new(Centres::new(ripples))),
             &Push::Quilted(bottom, top) => Self::Quilted(bottom, top),

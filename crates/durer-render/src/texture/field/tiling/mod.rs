@@ -144,7 +144,7 @@ fn tile_at([a, b]: [[f64; 2]; 2], outlines: &[Outline], [x, z]: [f64; 2]) -> (u8
     let determinant = a[0] * b[1] - a[1] * b[0];
     let i = floor((x * b[1] - z * b[0]) / determinant);
     let j = floor((a[0] * z - a[1] * x) / determinant);
-    let (mut kind, mut inside) = (0, f64::NEG_INFINITY);
+    let (mut kind, mut inside, mut height) = (0, f64::NEG_INFINITY, f64::NEG_INFINITY);
     for (di, dj) in (-2_i8..=2).flat_map(|di| (-2_i8..=2).map(move |dj| (di, dj))) {
         let (i, j) = (i + f64::from(di), j + f64::from(dj));
         let own = [x - i * a[0] - j * b[0], z - i * a[1] - j * b[1]];
@@ -153,11 +153,13 @@ fn tile_at([a, b]: [[f64; 2]; 2], outlines: &[Outline], [x, z]: [f64; 2]) -> (u8
                 continue;
             }
             let depth = outline.depth(own);
-            if depth > inside {
-                (kind, inside) = (outline.kind, depth);
-                if depth > 0.0 {
-                    return (kind, inside);
-                }
+            if depth > 0.0 {
+                return (outline.kind, depth);
+            }
+            // On a border the tile above counts.
+            let middle = z - own[1] + outline.middle[1];
+            if depth > inside || depth == inside && middle > height {
+                (kind, inside, height) = (outline.kind, depth, middle);
             }
         }
     }
