@@ -69,6 +69,7 @@ pub(crate) struct Frame {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unended {
     nesting: u64,
+    braces: u64,
     frame: u64,
 }
 
@@ -328,7 +329,7 @@ impl<'a> Parser<'a> {
     /// without a semicolon.
     pub(crate) fn begin_value(&mut self) -> Option<Unended> {
         let frame = self.frames.last().map_or(0, |frame| frame.serial);
-        let begun = Unended { nesting: self.nesting + 1, frame };
+        let begun = Unended { nesting: self.nesting + 1, braces: self.braces, frame };
         std::mem::replace(&mut self.unended, self.language.may_omit_semicolons().then_some(begun))
     }
 
@@ -336,7 +337,7 @@ impl<'a> Parser<'a> {
     /// macro, so that the name has its value when what follows runs.
     pub(crate) fn end_value(&mut self) {
         let Some(frame) = self.frames.last() else { return };
-        let here = Unended { nesting: self.nesting, frame: frame.serial };
+        let here = Unended { nesting: self.nesting, braces: self.braces, frame: frame.serial };
         if self.unended != Some(here) || self.peeked.is_some() {
             return;
         }

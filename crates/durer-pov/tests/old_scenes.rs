@@ -31,6 +31,17 @@ fn a_declaration_before_3_5_ends_without_a_semicolon() {
     assert_eq!(old("#declare A = 4 sphere { 0, A } #debug str(A, 0, 0)"), "4");
     // Directives within brackets belong to the value.
     assert_eq!(old("#declare V = <1, #if (0) 2 #else 3 #end, 4>; #debug str(V.y, 0, 0)"), "3");
+    for block in [
+        "pigment { rgb 1 #if (1) scale 2 #end }",
+        "finish { phong 1 #if (1) ambient 0 #end }",
+        "fog { distance 5 #if (1) rgb 1 #end }",
+        "interior { ior 1.5 #if (1) fade_distance 2 #end }",
+        "sphere { 0, 1 #if (1) pigment { rgb 1 } #end }",
+        "array[2] { 1, #if (1) 2 #end }",
+        "transform { scale 2 #if (1) rotate 30*y #end }",
+    ] {
+        assert_eq!(old(&format!("#declare B = {block} #debug \"read\"")), "read", "{block}");
+    }
     let wanted = "a declaration of a float, vector or colour ends with `;`";
     assert_eq!(fault("#version 3.5; #declare A = 1 sphere { 0, A }").2, wanted);
 }
