@@ -82,6 +82,16 @@ fn commas_are_optional_and_one_diffuse_value_resets_the_other() {
 }
 
 #[test]
+fn a_colour_of_an_object_has_no_effect() {
+    for colour in ["color rgb <1, 0, 0>", "colour red 1", "rgb 0.5", "filter 0.5", "Tint"] {
+        let text = format!("#declare Tint = rgbf 1; sphere {{ 0, 1 {colour} pigment {{ rgb 0.5 }} }}");
+        assert_eq!(notices(&text)[0], "a colour outside of a pigment has no effect", "{colour}");
+        assert_eq!(layers(&scene(&text)), [Colour::opaque(Rgb::grey(0.5))]);
+    }
+    assert!(fault("sphere { 0, 1 <1, 0, 0> }").2.contains("a modifier of the object"));
+}
+
+#[test]
 fn upper_layers_of_old_scenes_do_not_filter() {
     let two =
         "texture { pigment { rgbf <1, 1, 1, 0.3> } } texture { pigment { rgbft <1, 0, 0, 0.5, 0.25> } }";
@@ -115,6 +125,13 @@ fn refraction_is_that_of_the_outermost_layer() {
     assert_eq!(refraction(&(layer("0.5") + &layer("0.8"))), 0.8);
     assert_eq!(refraction(&(layer("0.5") + "texture { pigment { rgbt 1 } }")), 1.0);
     assert_eq!(refraction(&(layer("0.5") + "interior { ior 1.5 }")), 0.5);
+}
+
+#[test]
+fn an_index_of_refraction_of_zero_counts_as_one() {
+    let made = scene("sphere { 0, 1 interior { ior 0 } }");
+    assert_eq!(made.objects[0].interior.as_ref().map(|interior| interior.ior), Some(1.0));
+    assert!(fault("sphere { 0, 1 interior { ior -1 } }").2.contains("as -1 is"));
 }
 
 #[test]

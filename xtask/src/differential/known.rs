@@ -34,7 +34,7 @@ pub(super) struct Known {
 }
 
 /// All entries that a scene of the generator can have.
-pub(super) const ALL: [Known; 7] = [
+pub(super) const ALL: [Known; 8] = [
     Known { entry: "`no_shadow` holds for every part of a union.", without: without_no_shadow },
     Known { entry: "A camera exactly on a clear sphere", without: without_camera_on_a_surface },
     Known { entry: "Two surfaces at the same place.", without: without_second_ceiling },
@@ -42,6 +42,7 @@ pub(super) const ALL: [Known; 7] = [
     Known { entry: "`slope` and `aoi` on bumps", without: without_slopes },
     Known { entry: "Bumps after a turned pattern of textures.", without: without_turns },
     Known { entry: "Fractals far away.", without: without_far_fractals },
+    Known { entry: "`tiling` at `z = 0`", without: without_borders_of_tilings },
 ];
 
 /// With all `Reworded` at once, and their entries.
@@ -203,6 +204,22 @@ fn without_far_fractals(scene: &Scene) -> Option<Scene> {
         let (before, outside) = open.split_once(" exterior ")?;
         let (kind, factor) = outside.split_once(',')?;
         (2..=6).contains(&kind.parse::<u32>().ok()?).then(|| format!("{before} exterior 1,{factor}"))
+    })
+}
+
+/// The tilings with a border at `z = 0`.
+const WITH_BORDER: [u32; 7] = [5, 12, 13, 14, 19, 20, 21];
+
+/// With another tiling in place of those with a border at `z = 0`, if the scene shows charts.
+fn without_borders_of_tilings(scene: &Scene) -> Option<Scene> {
+    if !scene.text().contains("uv_mapping") {
+        return None;
+    }
+    rewritten(scene, |open| {
+        let (before, after) = open.split_once("tiling ")?;
+        let end = after.find(|c: char| !c.is_ascii_digit()).unwrap_or(after.len());
+        let is_listed = WITH_BORDER.contains(&after[..end].parse().ok()?);
+        is_listed.then(|| format!("{before}tiling 1{}", &after[end..]))
     })
 }
 

@@ -30,6 +30,12 @@ impl Parser<'_> {
                 }
                 continue;
             }
+            if self.starts_colour()? {
+                let place = self.here();
+                self.colour()?;
+                self.notice(place, "a colour outside of a pigment has no effect");
+                continue;
+            }
             let lexeme = self.next()?;
             let keyword = match &lexeme.item {
                 Item::Mark(Mark::BraceClose)

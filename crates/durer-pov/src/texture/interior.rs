@@ -34,14 +34,14 @@ pub(crate) struct Material {
 }
 
 impl Parser<'_> {
-    /// Reads an index of refraction.
+    /// Reads an index of refraction; 0 counts as 1 (a fact of the language).
     pub(crate) fn index_of_refraction(&mut self) -> Result<f64> {
         let place = self.here();
         let ior = self.float()?;
-        if ior > 0.0 {
-            Ok(ior)
-        } else {
-            Err(Error::invalid(place, "an index of refraction must be positive"))
+        match ior {
+            0.0 => Ok(1.0),
+            _ if ior > 0.0 => Ok(ior),
+            _ => Err(Error::invalid(place, format!("an index of refraction is not negative, as {ior} is"))),
         }
     }
 
