@@ -135,7 +135,7 @@ fn impossible_shapes_are_named() {
         ("camera { angle 200 }", "between 0 and 180"),
         ("mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0,1,3> } }", "no vertex number 3"),
         ("sphere { 0, 1 finish { roughness 0 } }", "must be positive"),
-        ("sphere { 0, 1 interior { ior 0 } }", "must be positive"),
+        ("sphere { 0, 1 interior { ior -0.5 } }", "is not negative, as -0.5 is"),
     ] {
         let (_, _, message) = fault(text);
         assert!(message.contains(part), "{text}: {message}");
