@@ -162,7 +162,7 @@ def wrong_values(x):
         
         "union { sphere { 0, 1 } matrix <1, 2, 3, 2, 4, 6, 0, 0, 1, 0, 0, 0> }": "", "sphere { 0, 1e400 }": "", "sphere { 0, 1/0 }": "zero",
         "sphere { <0, 0, 1/0>, 1 }": "zero", "sphere { 0, sqrt(-1) }": "", "sphere { 0, ln(0) }": "", "sphere { 0, asin(2) }": None,
-        "#declare A = 1/0;": "zero", "#if (1/0) #end": "zero", "sphere { 0, mod(1, 0) }": "", "sphere { 0, 1 translate 1e999 }": "",
+        "#declare A = 1/0; sphere { 0, A }": "finite", "#if (1/0) #end sphere { 0, -1/0 }": "finite", "sphere { 0, mod(1, 0) }": "", "sphere { 0, 1 translate 1e999 }": "",
         "sphere { 0, exp(1e9) }": "", "sphere { 0, pow(10, 400) }": "", "box { -1e308, 1e308 scale 1e308 }": "", "sphere { 0, 1 matrix <1, 0, 0> }": "",
         "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }": "", "mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, -1> } }": "",
         "mesh2 { vertex_vectors { -3, 0, x, y } face_indices { 1, <0, 1, 2> } }": "", "mesh2 { vertex_vectors { 1e9, 0, x, y } face_indices { 1, <0, 1, 2> } }": "",
