@@ -1,4 +1,4 @@
-// Area lights that turn to what they light, round though they are not `circular`; a spotlight's edge in a shadow.
+// Area lights that turn to what they light, round though they are not `circular`.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { right 4/3*x up y location <0, 9, -9> look_at <0, 0, 0.4> angle 45 }
@@ -12,4 +12,3 @@ union {
 light_source { <-4, 6, 2> rgb <0.5, 0.3, 0.2> area_light 3*x, 1.5*z, 3, 3 orient }
 light_source { <1, 5, 3> rgb <0.2, 0.4, 0.3> area_light 1.5*x, 3*z, 2, 3 orient area_illumination }
 light_source { <4, 6, 3> rgb <0.2, 0.2, 0.4> area_light 2*x, 3*z, 5, 1 orient adaptive 1 }
-light_source { <-3, 7, -3> rgb 0.5 spotlight point_at <2.4, 0, 2.6> radius 5 falloff 9 area_light 3*x, 3*z, 3, 3 area_illumination }

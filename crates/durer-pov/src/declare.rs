@@ -6,10 +6,18 @@ use crate::colour::begins_colour;
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
-use crate::parser::{Item, Parser, strayed};
+use crate::parser::{Item, Lexeme, Parser, strayed};
 use crate::scope::Reference;
 use crate::strings::makes_string;
 use crate::value::{Unsupported, Value};
+
+/// A declaration of a number that may end without a semicolon: where its value is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Unended {
+    nesting: u64,
+    braces: u64,
+    frame: u64,
+}
 
 impl Parser<'_> {
     /// Reads `#declare NAME = value` or `#local`.
@@ -107,6 +115,38 @@ impl Parser<'_> {
             return Err(Error::invalid(self.here(), text));
         }
         Ok((value, is_ended))
+    }
+
+    /// Begins the value of a declaration one nesting level deeper. In old versions of the language it may end
+    /// without a semicolon.
+    fn begin_value(&mut self) -> Option<Unended> {
+        let frame = self.frames.last().map_or(0, |frame| frame.serial);
+        let begun = Unended { nesting: self.nesting + 1, braces: self.braces, frame };
+        std::mem::replace(&mut self.unended, self.language.may_omit_semicolons().then_some(begun))
+    }
+
+    /// Called behind an operand: puts the semicolon that a declaration lacks before a directive or the end of a
+    /// macro, so that the name has its value when what follows runs.
+    pub(crate) fn end_value(&mut self) {
+        let Some(frame) = self.frames.last() else { return };
+        let here = Unended { nesting: self.nesting, braces: self.braces, frame: frame.serial };
+        if self.unended != Some(here) || self.has_peeked() {
+            return;
+        }
+        if matches!(self.raw(), None | Some(Kind::Directive(..))) {
+            self.put_back(Lexeme { item: Item::Mark(Mark::Semicolon), place: self.here() });
+        }
+    }
+
+    /// Skips a further semicolon behind a declaration, also where the declaration ends its file or macro: then the
+    /// semicolon stands behind the include or the call (a fact of the language).
+    fn skip_spare_semicolon(&mut self) {
+        while !self.has_peeked() && self.raw().is_none() {
+            if !self.leave_frame() {
+                return;
+            }
+        }
+        self.take_raw_mark(Mark::Semicolon);
     }
 
     /// Reads a value of any kind.

@@ -251,6 +251,7 @@ impl Parser<'_> {
         }
     }
 
+    /// The internal function with this number, of the scene's noise generator.
     fn made_internal_function(&mut self, number: f64, place: Place) -> Result<Called> {
         let is_plain = number == formulas::PLAIN_NOISE;
         let tables = self.noise_tables();

@@ -65,14 +65,6 @@ pub(crate) struct Frame {
     pub(crate) from: Option<(Option<Name>, Place)>,
 }
 
-/// A declaration of a number that may end without a semicolon: where its value is read.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Unended {
-    nesting: u64,
-    braces: u64,
-    frame: u64,
-}
-
 /// The reader of one scene.
 pub(crate) struct Parser<'a> {
     pub(crate) options: &'a ReadOptions,
@@ -85,13 +77,13 @@ pub(crate) struct Parser<'a> {
     /// The name that the current declaration will declare.
     pub(crate) declaring: Option<Name>,
     /// The declaration that is being read, if it may end without a semicolon.
-    pub(crate) unended: Option<Unended>,
+    pub(crate) unended: Option<crate::declare::Unended>,
     pub(crate) messages: Messages<'a>,
     peeked: Option<Lexeme>,
     last: Place,
     serial: u64,
     steps: u64,
-    nesting: u64,
+    pub(crate) nesting: u64,
     /// The number of open braces in the tokens that the grammar has taken.
     pub(crate) braces: u64,
     /// The places of these braces.
@@ -230,7 +222,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Leaves the innermost frame. Returns `false` if it is the scene itself.
-    fn leave_frame(&mut self) -> bool {
+    pub(crate) fn leave_frame(&mut self) -> bool {
         let Some(frame) = self.frames.pop_if(|frame| frame.from.is_some()) else { return false };
         match frame.from {
             Some((Some(_), _)) => self.macro_depth -= 1,
@@ -268,17 +260,6 @@ impl<'a> Parser<'a> {
                 _ => return Ok(false),
             }
         }
-    }
-
-    /// Skips a further semicolon behind a declaration, also where the declaration ends its file or macro: then the
-    /// semicolon stands behind the include or the call (a fact of the language).
-    pub(crate) fn skip_spare_semicolon(&mut self) {
-        while !self.has_peeked() && self.raw().is_none() {
-            if !self.leave_frame() {
-                return;
-            }
-        }
-        self.take_raw_mark(Mark::Semicolon);
     }
 
     /// The macro calls and includes that led here, innermost first.
@@ -323,27 +304,6 @@ impl<'a> Parser<'a> {
     /// The next token of the innermost frame, without running, expanding or taking it.
     pub(crate) fn raw(&self) -> Option<Kind> {
         self.raw_ahead(0)
-    }
-
-    /// Begins the value of a declaration one nesting level deeper. In old versions of the language it may end
-    /// without a semicolon.
-    pub(crate) fn begin_value(&mut self) -> Option<Unended> {
-        let frame = self.frames.last().map_or(0, |frame| frame.serial);
-        let begun = Unended { nesting: self.nesting + 1, braces: self.braces, frame };
-        std::mem::replace(&mut self.unended, self.language.may_omit_semicolons().then_some(begun))
-    }
-
-    /// Called behind an operand: puts the semicolon that a declaration lacks before a directive or the end of a
-    /// macro, so that the name has its value when what follows runs.
-    pub(crate) fn end_value(&mut self) {
-        let Some(frame) = self.frames.last() else { return };
-        let here = Unended { nesting: self.nesting, braces: self.braces, frame: frame.serial };
-        if self.unended != Some(here) || self.peeked.is_some() {
-            return;
-        }
-        if matches!(self.raw(), None | Some(Kind::Directive(..))) {
-            self.peeked = Some(Lexeme { item: Item::Mark(Mark::Semicolon), place: self.last });
-        }
     }
 
     /// The token `ahead` tokens after [`Parser::raw`].

@@ -95,3 +95,41 @@ impl Lowering {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use durer_formula::{Builder, Op};
+    use durer_math::Point3;
+
+    #[test]
+    fn only_equal_isosurfaces_share_an_octree() {
+        let plane = |height: f64| {
+            let mut b = Builder::new();
+            let (y, height) = (b.input(1).unwrap(), b.constant(height).unwrap());
+            let root = b.push(Op::Sub(y, height)).unwrap();
+            Arc::new(b.finish(root, 3))
+        };
+        let cube = |size: f64| {
+            let corner = |x: f64| Point3::new(x, x, x);
+            crate::Container::Box(corner(-size), corner(size))
+        };
+        let iso = |height, threshold, size| crate::Isosurface {
+            function: plane(height),
+            threshold,
+            container: cube(size),
+        };
+        let mut all = Isosurfaces::default();
+        for one in [
+            iso(0.0, 0.0, 1.0),
+            iso(0.0, 0.0, 1.0),
+            iso(0.5, 0.0, 1.0),
+            iso(0.0, 0.5, 1.0),
+            iso(0.0, 0.0, 2.0),
+        ] {
+            all.built(&one).unwrap();
+        }
+        // The first two are equal, and each of the others differs from them in one part.
+        assert_eq!(all.built.len(), 4);
+    }
+}
