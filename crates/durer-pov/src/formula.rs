@@ -5,18 +5,16 @@
 //! floats, parameters, the float functions, and calls of functions declared before. Calls are
 //! expanded in place, so the result contains no calls.
 
-use std::borrow::Cow;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use durer_formula::noise::NoiseTable;
 use durer_formula::{Comparison, Function};
 use durer_formula::{Formula, FormulaError, NodeId, Op};
 use durer_math::{Interval, Point3};
 use durer_scene::{Container, Isosurface};
 
 use crate::diagnostics::{Error, ErrorKind, Place, Result};
-use crate::formulas::{self, Lacking};
+use crate::formulas;
 use crate::interner::Name;
 use crate::keywords::Keyword;
 use crate::lexer::{Kind, Mark};
@@ -229,51 +227,6 @@ impl Parser<'_> {
         let place = self.here();
         let root = self.logical_formula(&mut draft)?;
         Ok(function(draft.function.finish(root, draft.inputs).map_err(too_long(place))?))
-    }
-
-    /// `internal(n)`: one of the functions that functions.inc gives names to.
-    fn internal_function(&mut self) -> Result<Called> {
-        self.next()?;
-        let place = self.here();
-        self.expect(Mark::ParenOpen)?;
-        let number = self.float()?;
-        self.expect(Mark::ParenClose)?;
-        self.made_internal_function(number, place)
-    }
-
-    /// A function that the scene calls; the noise itself follows the scene's generator.
-    fn as_of_now<'c>(&mut self, called: &'c Called, place: Place) -> Result<Cow<'c, Called>> {
-        match called.scene_noise {
-            Some(made) if made != self.language.noise_generator() => {
-                self.made_internal_function(formulas::PLAIN_NOISE, place).map(Cow::Owned)
-            }
-            _ => Ok(Cow::Borrowed(called)),
-        }
-    }
-
-    /// The internal function with this number, of the scene's noise generator.
-    fn made_internal_function(&mut self, number: f64, place: Place) -> Result<Called> {
-        let is_plain = number == formulas::PLAIN_NOISE;
-        let tables = self.noise_tables();
-        let rows = tables.map_or_else(NoiseTable::own_rows, |tables| tables.rows);
-        let generator = self.language.noise_generator();
-        match formulas::internal(number, generator, rows) {
-            Ok((formula, noisy)) => {
-                let table = tables.map(|tables| tables.components[0]);
-                let mut called = Called::from(formula.with_noise(table));
-                called.noisy = noisy;
-                called.scene_noise = is_plain.then_some(generator);
-                Ok(called)
-            }
-            Err(Lacking::Unknown) => {
-                Err(Error::invalid(place, format!("there is no internal function {number}")))
-            }
-            Err(Lacking::NotYet(why)) => Err(Error::at(
-                place,
-                ErrorKind::Unsupported,
-                format!("not supported yet: internal({number}): {why}"),
-            )),
-        }
     }
 
     /// Reads `&` and `|`, from left to right.

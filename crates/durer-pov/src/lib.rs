@@ -32,6 +32,7 @@ mod files;
 mod formula;
 mod formulas;
 mod functions;
+mod internal_function;
 mod interner;
 mod keywords;
 mod lens;
