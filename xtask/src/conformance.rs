@@ -1,12 +1,13 @@
 //! `cargo xtask conformance`: renders the same scenes with durer and with POV-Ray.
 
-use crate::command::{Durer, Shot, root, scratch};
+use crate::command::{Durer, Shot, root, scratch, step};
 use crate::compare::{Difference, REQUIRED, TOLERANCE, compare};
 use crate::picture::Picture;
 use crate::povray::{self, Povray};
 use crate::scenes::{self, Scene};
 use crate::{Outcome, report};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 /// The folder of the scenes made for the comparison, and of all reference pictures.
@@ -56,6 +57,9 @@ pub(crate) struct Cost {
 
 /// Runs the comparison; fails if a picture does not agree well enough.
 pub(crate) fn run(words: &[String]) -> Outcome {
+    if let Some((_, rest)) = words.split_first().filter(|(first, _)| *first == "--distribution") {
+        return distribution(rest);
+    }
     let check = words.iter().any(|w| w == "--check");
     let names: Vec<String> = words.iter().filter(|w| *w != "--check").cloned().collect();
     if let Some(unknown) = names.iter().find(|n| n.starts_with('-')) {
@@ -93,6 +97,22 @@ pub(crate) fn run(words: &[String]) -> Outcome {
         failed.join(", "),
         scratch("conformance")?.display(),
     ))
+}
+
+/// Compares the scenes that come with POV-Ray, all of them or those with a word in their path, with its noise.
+fn distribution(words: &[String]) -> Outcome {
+    let folder = scratch("distribution")?;
+    let durer = Durer::build()?.with_learned_noise(&folder.join("data"))?;
+    let mut command = Command::new("python3");
+    command.arg(root().join("tests/outside/check_distribution.py"));
+    command.arg("--durer").arg(durer.program()).arg("--work").arg(&folder);
+    match words {
+        [] => {}
+        [word] => drop(command.args(["--only", word])),
+        _ => return Err("conformance: --distribution takes one word of the scenes' paths".into()),
+    }
+    command.env("XDG_DATA_HOME", folder.join("data"));
+    step("python3 tests/outside/check_distribution.py", &mut command)
 }
 
 /// Renders one scene with both programs at all sizes.
@@ -177,7 +197,7 @@ mod tests {
         }
         let busy = || {
             let script = "i=0; while [ $i -lt 200000 ]; do i=$((i+1)); done";
-            let status = std::process::Command::new("sh").args(["-c", script]).status();
+            let status = Command::new("sh").args(["-c", script]).status();
             status.map(|_| ()).map_err(|e| e.to_string())
         };
         let cost = cost_of(busy).unwrap();

@@ -41,6 +41,8 @@ usage: cargo xtask NAME
   test                             formatting, clippy, docs, all tests and doc-tests, every scene, the Python package
   conformance [--check] [SCENE]..  renders tests/conformance with durer and with POV-Ray, compares, times, and
                                    writes docs/conformance.md; --check only compares, SCENEs limit it to a few
+  conformance --distribution [WORD]  renders POV-Ray's own scenes, all or those with WORD in their path, with both
+                                   programs: a table, and a page of pictures under target/ (Python, numpy, pillow)
   differential [--looks] [--scenes N] [--seed S] [--first K] [--whole] [--threads N] [--durer PROGRAM]
                                    renders N random scenes (100) of seed S (1) from the K-th (0) on with durer and with POV-Ray:
                                    solids, or with --looks textures, patterns, cameras, lights, atmosphere and the words of the
